@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The camera: pixels to rays and back, with or without lens distortion.
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "stillpoint/core/distortion.hpp"
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/core/geometry.hpp"
+
+namespace stillpoint {
+
+/// A camera with focal lengths and principal point in pixels. Axes: x right, y down, z forward. Stages compute with
+/// undistorted pixels; images hold distorted ones.
+template <class Distortion>
+class PinholeCamera {
+ public:
+  /// @throws Error unless both focal lengths and the size are positive and everything is finite.
+  PinholeCamera(double fx, double fy, double cx, double cy, int width, int height, Distortion distortion = {})
+      : fx_(fx), fy_(fy), cx_(cx), cy_(cy), width_(width), height_(height), distortion_(std::move(distortion)) {
+    require(std::isfinite(fx) && fx > 0, "fx", fx, "a positive focal length in pixels");
+    require(std::isfinite(fy) && fy > 0, "fy", fy, "a positive focal length in pixels");
+    require(std::isfinite(cx), "cx", cx, "a finite principal point in pixels");
+    require(std::isfinite(cy), "cy", cy, "a finite principal point in pixels");
+    require(width > 0, "width", width, "a positive number of pixels");
+    require(height > 0, "height", height, "a positive number of pixels");
+  }
+
+  double fx() const noexcept { return fx_; }
+  double fy() const noexcept { return fy_; }
+  double cx() const noexcept { return cx_; }
+  double cy() const noexcept { return cy_; }
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  const Distortion& distortion() const noexcept { return distortion_; }
+
+  /// K, the intrinsic matrix.
+  Matrix3d matrix() const noexcept {
+    Matrix3d k;
+    k << fx_, 0, cx_, 0, fy_, cy_, 0, 0, 1;
+    return k;
+  }
+
+  /// Undistorted pixel of a point in the camera's frame. The point must have z > 0.
+  Vector2d project(const Vector3d& point) const noexcept {
+    return {fx_ * point.x() / point.z() + cx_, fy_ * point.y() / point.z() + cy_};
+  }
+
+  /// Point in the camera's frame at a depth (z, metres) along an undistorted pixel's ray (π⁻¹, Eq. 4 and 5).
+  Vector3d back_project(const Vector2d& pixel, double depth_m) const noexcept {
+    return {(pixel.x() - cx_) / fx_ * depth_m, (pixel.y() - cy_) / fy_ * depth_m, depth_m};
+  }
+
+  /// Undistorted pixel to the pixel in the image.
+  Vector2d distort(const Vector2d& pixel) const { return to_pixel(distortion_.distort(to_plane(pixel))); }
+
+  /// Pixel in the image to the undistorted pixel.
+  Vector2d undistort(const Vector2d& pixel) const { return to_pixel(distortion_.undistort(to_plane(pixel))); }
+
+ private:
+  template <class Value>
+  static void require(bool holds, const char* name, Value found, const char* expected) {
+    if (!holds) throw Error(std::string("camera: ") + name + " is " + std::to_string(found) + ", expected " + expected);
+  }
+
+  Vector2d to_plane(const Vector2d& pixel) const noexcept { return {(pixel.x() - cx_) / fx_, (pixel.y() - cy_) / fy_}; }
+  Vector2d to_pixel(const Vector2d& plane) const noexcept { return {plane.x() * fx_ + cx_, plane.y() * fy_ + cy_}; }
+
+  double fx_, fy_, cx_, cy_;
+  int width_, height_;
+  Distortion distortion_;
+};
+
+/// The camera of the policy sets we ship: its lens model is chosen at run time.
+using Camera = PinholeCamera<AnyDistortion>;
+
+}  // namespace stillpoint

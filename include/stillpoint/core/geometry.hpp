@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Names for the Eigen types that cross stage borders.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cmath>
+
+namespace stillpoint {
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector2f;
+using Eigen::Vector3d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Rigid motion, named `target_from_source`: maps points of source into target, metres.
+using Pose = Eigen::Isometry3d;
+
+/// The matrix of the cross product: skew(a) * b = a × b.
+inline Matrix3d skew(const Vector3d& a) {
+  Matrix3d m;
+  m << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return m;
+}
+
+/// Rotation by the vector ω (axis times angle, radians): Rodrigues' formula.
+inline Matrix3d rotation_from_vector(const Vector3d& omega) {
+  const double angle = omega.norm();
+  if (angle < 1e-12) return Matrix3d::Identity() + skew(omega);
+  return Eigen::AngleAxisd(angle, omega / angle).toRotationMatrix();
+}
+
+/// Angle of a rotation, radians in [0, π]. Taken from sine and cosine, so that small angles keep their digits.
+inline double rotation_angle(const Matrix3d& rotation) {
+  const Vector3d axis_sine(rotation(2, 1) - rotation(1, 2), rotation(0, 2) - rotation(2, 0),
+                           rotation(1, 0) - rotation(0, 1));
+  return std::atan2(axis_sine.norm(), rotation.trace() - 1.0);
+}
+
+/// The same pose with its rotation made orthonormal again: products of many poses, and `inverse()` (which transposes),
+/// drift away from it.
+inline Pose orthonormalized(const Pose& pose) {
+  Pose result = Pose::Identity();
+  result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  result.translation() = pose.translation();
+  return result;
+}
+
+}  // namespace stillpoint

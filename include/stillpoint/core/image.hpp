@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A non-owning view of an image, whoever owns it, and an owning buffer for the frames that the filter remembers.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace stillpoint {
+
+enum class PixelFormat : std::uint8_t {
+  none,         ///< no image
+  gray8,        ///< one byte a pixel
+  bgr8,         ///< three bytes a pixel, blue first
+  depth16,      ///< unsigned 16 bit, scaled by a factor
+  depth32f,     ///< float metres
+  unsupported,  ///< an image of some other type: the frame gets `Status::unsupported_image`
+};
+
+inline std::size_t bytes_per_pixel(PixelFormat format) noexcept {
+  switch (format) {
+    case PixelFormat::gray8: return 1;
+    case PixelFormat::bgr8: return 3;
+    case PixelFormat::depth16: return 2;
+    case PixelFormat::depth32f: return 4;
+    default: return 0;
+  }
+}
+
+struct ImageView;
+
+/// How a foreign image type is read: specialise with `static ImageView view(const Image&)`. `cv::Mat` is in opencv.hpp.
+template <class Image, class = void>
+struct image_traits;
+
+/// Rows of pixels that belong to somebody else. Row `v` begins at `data + v * stride_bytes`.
+struct ImageView {
+  const std::uint8_t* data = nullptr;
+  int width = 0;
+  int height = 0;
+  std::size_t stride_bytes = 0;
+  PixelFormat format = PixelFormat::none;
+
+  ImageView() = default;
+  ImageView(const void* pixels, int columns, int rows, std::size_t stride, PixelFormat pixel_format) noexcept
+      : data(static_cast<const std::uint8_t*>(pixels)),
+        width(columns),
+        height(rows),
+        stride_bytes(stride),
+        format(pixel_format) {}
+  template <class Image, class = decltype(image_traits<Image>::view(std::declval<const Image&>()))>
+  ImageView(const Image& image) : ImageView(image_traits<Image>::view(image)) {}
+
+  bool empty() const noexcept { return data == nullptr || width <= 0 || height <= 0; }
+  bool contains(int u, int v) const noexcept { return u >= 0 && v >= 0 && u < width && v < height; }
+
+  template <class T>
+  const T* row(int v) const noexcept {
+    return reinterpret_cast<const T*>(data + static_cast<std::size_t>(v) * stride_bytes);
+  }
+};
+
+/// Owns a copy of an image, rows without gaps. Its memory is reused when an image of the same size follows.
+class ImageBuffer {
+ public:
+  void resize(int width, int height, PixelFormat format) {
+    width_ = width;
+    height_ = height;
+    format_ = format;
+    pixels_.resize(static_cast<std::size_t>(height) * stride_bytes());
+  }
+
+  void assign(const ImageView& image) {
+    if (image.empty()) return resize(0, 0, PixelFormat::none);
+    resize(image.width, image.height, image.format);
+    for (int v = 0; v < height_; ++v) std::memcpy(row<std::uint8_t>(v), image.row<std::uint8_t>(v), stride_bytes());
+  }
+
+  ImageView view() const noexcept {
+    return pixels_.empty() ? ImageView() : ImageView(pixels_.data(), width_, height_, stride_bytes(), format_);
+  }
+
+  template <class T>
+  T* row(int v) noexcept {
+    return reinterpret_cast<T*>(pixels_.data() + static_cast<std::size_t>(v) * stride_bytes());
+  }
+
+ private:
+  std::size_t stride_bytes() const noexcept { return static_cast<std::size_t>(width_) * bytes_per_pixel(format_); }
+
+  std::vector<std::uint8_t> pixels_;
+  int width_ = 0;
+  int height_ = 0;
+  PixelFormat format_ = PixelFormat::none;
+};
+
+/// Luma of a BGR image: 0.114 B + 0.587 G + 0.299 R in 14-bit fixed point (ITU-R BT.601, the weights OpenCV uses).
+inline void gray_from_bgr(const ImageView& colour, ImageBuffer& gray) {
+  gray.resize(colour.width, colour.height, PixelFormat::gray8);
+  for (int v = 0; v < colour.height; ++v) {
+    const std::uint8_t* bgr = colour.row<std::uint8_t>(v);
+    std::uint8_t* const out = gray.row<std::uint8_t>(v);
+    for (int u = 0; u < colour.width; ++u, bgr += 3)
+      out[u] = static_cast<std::uint8_t>((bgr[0] * 1868 + bgr[1] * 9617 + bgr[2] * 4899 + 8192) >> 14);
+  }
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How a host's key points are read: one trait, so that no host must convert its own.
+
+#include <type_traits>
+#include <utility>
+
+#include "stillpoint/core/geometry.hpp"
+
+namespace stillpoint {
+
+/// Specialise for your key point type with `static Vector2f pixel(const Keypoint&)`: its position in the image as it is
+/// (distorted, as detected), pixels, integer coordinates at pixel centres. Eigen's 2-vectors are here, OpenCV's types
+/// in opencv.hpp.
+template <class Keypoint, class = void>
+struct keypoint_traits;
+
+template <class Scalar>
+struct keypoint_traits<Eigen::Matrix<Scalar, 2, 1>> {
+  static Vector2f pixel(const Eigen::Matrix<Scalar, 2, 1>& keypoint) { return keypoint.template cast<float>(); }
+};
+
+namespace detail {
+template <class Keypoint, class = void>
+struct has_keypoint_traits : std::false_type {};
+template <class Keypoint>
+struct has_keypoint_traits<Keypoint,
+                           std::enable_if_t<std::is_convertible_v<
+                               decltype(keypoint_traits<Keypoint>::pixel(std::declval<const Keypoint&>())), Vector2f>>>
+    : std::true_type {};
+}  // namespace detail
+
+}  // namespace stillpoint
