@@ -4,10 +4,12 @@
 
 // A non-owning view of an image, whoever owns it, and an owning buffer for the frames that the filter remembers.
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <type_traits>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -58,6 +60,11 @@ struct ImageView {
 
   bool empty() const noexcept { return data == nullptr || width <= 0 || height <= 0; }
   bool contains(int u, int v) const noexcept { return u >= 0 && v >= 0 && u < width && v < height; }
+  /// Distance to the nearest border pixel, negative outside, NaN for NaN. Pixels have integer centres.
+  float border_distance_px(float u, float v) const noexcept {
+    if (std::isnan(u) || std::isnan(v)) return std::numeric_limits<float>::quiet_NaN();
+    return std::min(std::min(u, static_cast<float>(width - 1) - u), std::min(v, static_cast<float>(height - 1) - v));
+  }
 
   template <class T>
   const T* row(int v) const noexcept {

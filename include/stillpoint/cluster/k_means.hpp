@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// K-means in three dimensions (the paper, Eq. 11 and 12): k-means++ start, Lloyd's iteration.
+//
+// Coordinates are kept as separate float arrays and the inner loop runs over points, so that compilers vectorise it.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// Points as separate coordinates, padded with zeros to a multiple of kLane.
+struct PointArrays {
+  static constexpr std::size_t kLane = 16;
+  span<float> x, y, z;   ///< padded size
+  std::size_t size = 0;  ///< without the padding
+
+  PointArrays(std::size_t count, Workspace& workspace) : size(count) {
+    const std::size_t padded = (count + kLane - 1) / kLane * kLane;
+    x = workspace.take<float>(padded);
+    y = workspace.take<float>(padded);
+    z = workspace.take<float>(padded);
+  }
+
+  void set(std::size_t i, const Vector3d& point) noexcept {
+    x[i] = static_cast<float>(point.x());
+    y[i] = static_cast<float>(point.y());
+    z[i] = static_cast<float>(point.z());
+  }
+  Eigen::Vector3f operator[](std::size_t i) const noexcept { return {x[i], y[i], z[i]}; }
+};
+
+/// What K-means found. The spans live in the workspace that was handed in.
+struct KMeansResult {
+  span<std::int32_t> cluster;      ///< of each point, 0 to k − 1
+  span<Eigen::Vector3f> centre;    ///< k of them
+  span<std::size_t> member_count;  ///< of each cluster, at least 1
+  double cost = 0;                 ///< J (Eq. 11): sum of squared distances to the own centre
+  int iterations = 0;
+};
+
+namespace detail {
+
+/// For every point: its squared distance to the nearest of the first centres, and which that is. The nearer of two
+/// equal ones is the first.
+class NearestCentre {
+ public:
+  NearestCentre(const PointArrays& points, Workspace& workspace)
+      : points_(points),
+        squared_(workspace.take<float>(points.x.size())),
+        index_(workspace.take<std::int32_t>(points.x.size())) {
+    clear();
+  }
+
+  void clear() noexcept { std::fill(squared_.begin(), squared_.end(), std::numeric_limits<float>::infinity()); }
+
+  void offer(const Eigen::Vector3f& centre, std::int32_t index) noexcept {
+    const float cx = centre.x(), cy = centre.y(), cz = centre.z();
+    for (std::size_t begin = 0; begin < points_.x.size(); begin += PointArrays::kLane) {
+      const float* const x = points_.x.data() + begin;
+      const float* const y = points_.y.data() + begin;
+      const float* const z = points_.z.data() + begin;
+      float* const best = squared_.data() + begin;
+      std::int32_t* const best_index = index_.data() + begin;
+      for (std::size_t i = 0; i < PointArrays::kLane; ++i) {
+        const float dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
+        const float squared = dx * dx + dy * dy + dz * dz;
+        const bool nearer = squared < best[i];
+        best[i] = nearer ? squared : best[i];
+        best_index[i] = nearer ? index : best_index[i];
+      }
+    }
+  }
+
+  float squared(std::size_t i) const noexcept { return squared_[i]; }
+  std::int32_t index(std::size_t i) const noexcept { return index_[i]; }
+
+ private:
+  const PointArrays& points_;
+  span<float> squared_;
+  span<std::int32_t> index_;
+};
+
+}  // namespace detail
+
+/// k-means++: each further centre is a point drawn with probability proportional to its squared distance to the centres
+/// so far. Source: Arthur and Vassilvitskii, "k-means++: The Advantages of Careful Seeding", SODA 2007.
+/// @param k at least 1 and at most points.size. O(n k).
+inline span<Eigen::Vector3f> k_means_plus_plus(const PointArrays& points, std::size_t k, Random& random,
+                                               Workspace& workspace) {
+  const span<Eigen::Vector3f> centres = workspace.take<Eigen::Vector3f>(k, Eigen::Vector3f::Zero());
+  const Workspace::Scope scope(workspace);
+  detail::NearestCentre nearest(points, workspace);
+  std::size_t chosen = random.index(points.size);
+  for (std::size_t c = 0; c < k; ++c) {
+    centres[c] = points[chosen];
+    nearest.offer(centres[c], static_cast<std::int32_t>(c));
+    double total = 0;
+    for (std::size_t i = 0; i < points.size; ++i) total += static_cast<double>(nearest.squared(i));
+    if (!(total > 0)) {  // fewer different points than centres
+      chosen = random.index(points.size);
+      continue;
+    }
+    double left = random.uniform() * total;
+    for (std::size_t i = 0; i < points.size; ++i) {
+      if (nearest.squared(i) > 0) chosen = i;
+      left -= static_cast<double>(nearest.squared(i));
+      if (left < 0) break;
+    }
+  }
+  return centres;
+}
+
+/// Lloyd's iteration from given centres until no assignment changes any more, or for `max_iterations`.
+/// A cluster that runs empty takes the point that is farthest from its own centre. O(n k) an iteration.
+/// @param centres k of them, at most points.size; moved to their final places
+inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centres, int max_iterations,
+                          Workspace& workspace) {
+  const std::size_t k = centres.size();
+  KMeansResult result;
+  result.centre = centres;
+  result.cluster = workspace.take<std::int32_t>(points.size, -1);
+  result.member_count = workspace.take<std::size_t>(k);
+  const Workspace::Scope scope(workspace);
+  const span<Vector3d> sum = workspace.take<Vector3d>(k, Vector3d::Zero());
+  detail::NearestCentre nearest(points, workspace);
+
+  bool changed = true;
+  while (changed && result.iterations < max_iterations) {
+    ++result.iterations;
+    changed = false;
+    nearest.clear();
+    for (std::size_t c = 0; c < k; ++c) nearest.offer(centres[c], static_cast<std::int32_t>(c));
+    std::fill(sum.begin(), sum.end(), Vector3d::Zero());
+    std::fill(result.member_count.begin(), result.member_count.end(), std::size_t{0});
+    result.cost = 0;
+    for (std::size_t i = 0; i < points.size; ++i) {
+      changed = changed || nearest.index(i) != result.cluster[i];
+      result.cluster[i] = nearest.index(i);
+      const auto c = static_cast<std::size_t>(nearest.index(i));
+      sum[c] += points[i].cast<double>();
+      ++result.member_count[c];
+      result.cost += static_cast<double>(nearest.squared(i));
+    }
+    for (std::size_t c = 0; c < k; ++c) {
+      if (result.member_count[c] > 0) continue;
+      std::size_t farthest = points.size;
+      for (std::size_t i = 0; i < points.size; ++i)
+        if (result.member_count[static_cast<std::size_t>(result.cluster[i])] > 1 &&
+            (farthest == points.size || nearest.squared(i) > nearest.squared(farthest)))
+          farthest = i;
+      const auto old = static_cast<std::size_t>(result.cluster[farthest]);
+      sum[old] -= points[farthest].cast<double>();
+      --result.member_count[old];
+      sum[c] = points[farthest].cast<double>();
+      result.member_count[c] = 1;
+      result.cluster[farthest] = static_cast<std::int32_t>(c);
+      changed = true;
+    }
+    for (std::size_t c = 0; c < k; ++c)
+      centres[c] = (sum[c] / static_cast<double>(result.member_count[c])).cast<float>();
+  }
+  return result;
+}
+
+}  // namespace stillpoint

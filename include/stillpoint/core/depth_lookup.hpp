@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The depth that belongs to a key point: a pixel of the depth image, or nothing.
+
+#include <cmath>
+#include <cstddef>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/matches.hpp"
+
+namespace stillpoint {
+
+/// Maps pixels of the image to pixels of a depth image of another resolution and the same field of view.
+struct DepthScale {
+  float x = 1.0f, y = 1.0f;
+
+  DepthScale(const ImageView& image, const ImageView& depth) noexcept
+      : x(image.width > 0 ? static_cast<float>(depth.width) / static_cast<float>(image.width) : 1.0f),
+        y(image.height > 0 ? static_cast<float>(depth.height) / static_cast<float>(image.height) : 1.0f) {}
+
+  /// Pixel centres are integers in both images: (u + ½) scales, not u.
+  Vector2f operator()(const Vector2f& pixel) const noexcept {
+    return {(pixel.x() + 0.5f) * x - 0.5f, (pixel.y() + 0.5f) * y - 0.5f};
+  }
+};
+
+/// The paper's: depth at the rounded pixel, whatever its neighbours say.
+struct RoundedDepth {
+  /// @return metres, 0 where there is none or the pixel is outside.
+  double at(const DepthView& depth, const Vector2f& pixel) const noexcept {
+    if (!pixel.allFinite()) return 0.0;
+    const auto u = static_cast<int>(std::lround(pixel.x()));
+    const auto v = static_cast<int>(std::lround(pixel.y()));
+    return depth.image.contains(u, v) ? static_cast<double>(depth.metres(u, v)) : 0.0;
+  }
+};
+
+/// Undistorts the pixels of one side of the matches and looks their depths up.
+/// @param noise a depth noise model, `double sigma(double depth_m)`.
+template <class Lookup, class Camera, class Noise>
+void lift(const FrameView& frame, const Lookup& lookup, const Camera& camera, const Noise& noise,
+          Observations& observations) {
+  const DepthScale to_depth(frame.image(), frame.depth.image);
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const Vector2f pixel = observations.pixel[i];
+    if (!pixel.allFinite()) continue;
+    observations.undistorted[i] = camera.undistort(pixel.template cast<double>());
+    const double depth_m = frame.depth.empty() ? 0.0 : lookup.at(frame.depth, to_depth(pixel));
+    observations.set_depth(i, depth_m, depth_m > 0.0 ? noise.sigma(depth_m) : 0.0, camera);
+  }
+}
+
+}  // namespace stillpoint

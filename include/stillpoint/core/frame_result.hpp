@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The filter's answer for one frame.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stillpoint/core/image.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/timings.hpp"
+
+namespace stillpoint {
+
+/// One entry for each of the host's key points, in their order. Belongs to the filter and holds until its next frame.
+class FrameResult {
+ public:
+  /// One byte a key point: 1 keep, 0 drop. What `compact` takes.
+  span<const std::uint8_t> keep() const noexcept { return keep_; }
+  std::size_t size() const noexcept { return labels_.size(); }
+  std::size_t kept_count() const noexcept { return kept_count_; }
+
+  /// Verdict, reason, cluster and probability of key point `i`.
+  const Label& verdict(std::size_t i) const noexcept { return labels_[i]; }
+  const FeatureScore& score(std::size_t i) const noexcept { return scores_[i]; }
+  double depth_m(std::size_t i) const noexcept { return depth_m_[i]; }  ///< 0 where there is none
+
+  Status status() const noexcept { return status_; }
+  /// The motion that the verdicts assumed: current_from_reference.
+  const Motion& motion() const noexcept { return motion_; }
+  const Timings& timings() const noexcept { return timings_; }
+  /// How many dynamic features the keep-floor kept.
+  std::size_t keep_floor_kept() const noexcept { return keep_floor_kept_; }
+
+  /// Paints a mask of the image's size: 255 keeps, 0 within `radius_px` of a dropped feature.
+  /// The buffer is reused when it has that size already.
+  void mask(ImageBuffer& mask, int radius_px = 12) const {
+    mask.resize(width_, height_, PixelFormat::gray8);
+    for (int v = 0; v < height_; ++v) std::fill_n(mask.row<std::uint8_t>(v), width_, std::uint8_t{255});
+    for (std::size_t i = 0; i < labels_.size(); ++i)
+      if (keep_[i] == 0 && pixel_[i].allFinite()) drop_disc(mask, pixel_[i], radius_px);
+  }
+
+ private:
+  template <class Policies>
+  friend class FrameFilter;
+
+  /// Everything kept, nothing judged: what stays when a frame can't be judged.
+  void begin(span<const Vector2f> pixels, int width, int height) {
+    width_ = width;
+    height_ = height;
+    pixel_.assign(pixels.begin(), pixels.end());
+    labels_.assign(pixels.size(), Label{});
+    scores_.assign(pixels.size(), FeatureScore{});
+    depth_m_.assign(pixels.size(), 0.0);
+    keep_.assign(pixels.size(), 1);
+    kept_count_ = pixels.size();
+    keep_floor_kept_ = 0;
+    status_ = Status::ok;
+    motion_ = Motion{};
+    timings_ = Timings{};
+  }
+
+  /// Takes over the labels, of which the first size() are the host's.
+  void finish(span<const Label> labels, span<const FeatureScore> scores, span<const double> depth_m) {
+    std::copy_n(labels.begin(), labels_.size(), labels_.begin());
+    std::copy_n(scores.begin(), scores_.size(), scores_.begin());
+    std::copy_n(depth_m.begin(), depth_m_.size(), depth_m_.begin());
+    kept_count_ = keep_floor_kept_ = 0;
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      keep_[i] = labels_[i].keep ? 1 : 0;
+      kept_count_ += keep_[i];
+      keep_floor_kept_ += labels_[i].reason == Reason::keep_floor;
+    }
+  }
+
+  static void drop_disc(ImageBuffer& mask, const Vector2f& centre, int radius_px) {
+    const ImageView view = mask.view();
+    const int u0 = static_cast<int>(std::lround(centre.x())), v0 = static_cast<int>(std::lround(centre.y()));
+    for (int v = std::max(v0 - radius_px, 0); v <= std::min(v0 + radius_px, view.height - 1); ++v) {
+      const int half = static_cast<int>(std::sqrt(static_cast<double>(radius_px * radius_px - (v - v0) * (v - v0))));
+      const int begin = std::max(u0 - half, 0), end = std::min(u0 + half + 1, view.width);
+      if (begin < end) std::fill(mask.row<std::uint8_t>(v) + begin, mask.row<std::uint8_t>(v) + end, std::uint8_t{0});
+    }
+  }
+
+  std::vector<Vector2f> pixel_;
+  std::vector<Label> labels_;
+  std::vector<FeatureScore> scores_;
+  std::vector<double> depth_m_;
+  std::vector<std::uint8_t> keep_;
+  std::size_t kept_count_ = 0;
+  std::size_t keep_floor_kept_ = 0;
+  int width_ = 0, height_ = 0;
+  Status status_ = Status::first_frame;
+  Motion motion_;
+  Timings timings_;
+};
+
+}  // namespace stillpoint

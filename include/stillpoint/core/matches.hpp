@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where each feature is now and where it was before: the table that every stage after matching reads.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+/// What became of looking for a feature in the reference frame.
+enum class MatchState : std::uint8_t {
+  matched,
+  lost,       ///< in view, but not found
+  near_edge,  ///< found, but too near to the image border to be trusted for ego-motion
+  outside,    ///< its key point is outside the image or not finite
+};
+
+/// The features as one frame sees them. Parallel arrays, one entry a feature.
+struct Observations {
+  std::vector<Vector2f> pixel;        ///< in the image as it is (distorted), pixels
+  std::vector<Vector2d> undistorted;  ///< pixels of the ideal pinhole
+  std::vector<double> depth_m;        ///< metres, 0 where there is none
+  std::vector<double> depth_sigma_m;  ///< its standard deviation, metres; infinite without a depth
+  std::vector<Vector3d> point;        ///< in this frame's camera, metres; NaN without a depth
+
+  std::size_t size() const noexcept { return pixel.size(); }
+  bool has_depth(std::size_t i) const noexcept { return depth_m[i] > 0.0; }
+
+  void resize(std::size_t count) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    pixel.resize(count, Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    undistorted.resize(count, Vector2d::Constant(kNaN));
+    depth_m.resize(count, 0.0);
+    depth_sigma_m.resize(count, std::numeric_limits<double>::infinity());
+    point.resize(count, Vector3d::Constant(kNaN));
+  }
+
+  /// Writes what is known of feature `i` at a depth (0: none) with the noise of that depth.
+  template <class Camera>
+  void set_depth(std::size_t i, double depth, double sigma_m, const Camera& camera) {
+    depth_m[i] = depth;
+    if (depth > 0.0) {
+      depth_sigma_m[i] = sigma_m;
+      point[i] = camera.back_project(undistorted[i], depth);
+    } else {
+      depth_m[i] = 0.0;
+      depth_sigma_m[i] = std::numeric_limits<double>::infinity();
+      point[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+};
+
+/// All features of a frame. The first `host_count` are the host's key points in their order; a matcher may append
+/// corners of its own behind them, which take part in every stage and in no result.
+struct Matches {
+  std::size_t host_count = 0;
+  Observations current;
+  Observations reference;  ///< valid where `state` is matched or near_edge
+  std::vector<MatchState> state;
+
+  std::size_t size() const noexcept { return state.size(); }
+
+  bool matched(std::size_t i) const noexcept {
+    return state[i] == MatchState::matched || state[i] == MatchState::near_edge;
+  }
+  /// Matched, with depth at both ends: it has a 3D point in both frames.
+  bool metric(std::size_t i) const noexcept { return matched(i) && current.has_depth(i) && reference.has_depth(i); }
+
+  /// Makes room for the host's key points and forgets everything else.
+  void begin(span<const Vector2f> pixels) {
+    host_count = pixels.size();
+    current.resize(0);
+    reference.resize(0);
+    state.clear();
+    resize(host_count);
+    for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = pixels[i];
+  }
+
+  void resize(std::size_t count) {
+    current.resize(count);
+    reference.resize(count);
+    state.resize(count, MatchState::lost);
+  }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How the camera moved between the reference frame and the current one.
+
+#include <limits>
+#include <optional>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/status.hpp"
+
+namespace stillpoint {
+
+/// The answer of an ego-motion policy.
+struct Motion {
+  Status status = Status::first_frame;
+  Pose current_from_reference = Pose::Identity();  ///< metres
+  /// Of a small rotation (radians, first three) and translation (metres, last three) applied after the pose, in the
+  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v.
+  Matrix6d covariance = Matrix6d::Zero();
+  double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
+  int candidates = 0;  ///< matches that took part
+  int inliers = 0;     ///< of them, those that the motion explains
+
+  bool usable() const noexcept { return judged(status); }
+};
+
+/// What the host, an IMU or the last frame expects of the motion.
+struct MotionPrior {
+  std::optional<Pose> current_from_reference;
+};
+
+}  // namespace stillpoint

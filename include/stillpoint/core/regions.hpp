@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where the prior says that something may move, and which features lie there.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+/// What is known of a thing's class (the paper, 3.2: static, dynamic, "potential dynamic").
+enum class Mobility : std::uint8_t {
+  unknown,
+  fixed,    ///< wall, television, table: the paper's "static"
+  movable,  ///< chair, mouse, bottle: moves when it is moved
+  dynamic,  ///< people, animals, cars
+};
+
+constexpr const char* to_string(Mobility mobility) noexcept {
+  switch (mobility) {
+    case Mobility::fixed: return "static";
+    case Mobility::movable: return "movable";
+    case Mobility::dynamic: return "dynamic";
+    default: return "unknown";
+  }
+}
+
+/// Axis-aligned rectangle in the image, pixels, corner (x, y) at the top left.
+struct Box {
+  float x = 0, y = 0, width = 0, height = 0;
+
+  bool contains(const Vector2f& pixel) const noexcept {
+    return pixel.x() >= x && pixel.y() >= y && pixel.x() <= x + width && pixel.y() <= y + height;
+  }
+
+  /// Distance from a pixel to the nearest point of the outline, inside or outside.
+  float edge_distance_px(const Vector2f& pixel) const noexcept {
+    const float inside_x = std::min(pixel.x() - x, x + width - pixel.x());
+    const float inside_y = std::min(pixel.y() - y, y + height - pixel.y());
+    if (inside_x >= 0 && inside_y >= 0) return std::min(inside_x, inside_y);
+    return Vector2f(std::max(-inside_x, 0.0f), std::max(-inside_y, 0.0f)).norm();
+  }
+};
+
+/// One answer of a detector.
+struct Detection {
+  Box box;
+  Mobility mobility = Mobility::unknown;
+  float confidence = 1.0f;  ///< 0 to 1
+};
+
+/// How one feature lies to the regions.
+struct Membership {
+  static constexpr std::int16_t kNone = -1;
+
+  bool in_fixed = false;
+  bool in_movable = false;
+  bool in_dynamic = false;
+  std::int16_t dynamic_region = kNone;  ///< the smallest dynamic region that holds it
+  float edge_distance_px =
+      std::numeric_limits<float>::infinity();  ///< to the nearest outline of a fixed or dynamic one
+};
+
+/// The prior's answer for one frame.
+struct Regions {
+  std::vector<Detection> detections;
+  std::vector<Membership> of_feature;  ///< one entry a feature, filled by `locate`
+
+  /// Finds the regions of each feature. O(features × regions).
+  void locate(span<const Vector2f> pixels) {
+    of_feature.assign(pixels.size(), Membership{});
+    for (std::size_t r = 0; r < detections.size(); ++r) {
+      const Detection& detection = detections[r];
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        Membership& feature = of_feature[i];
+        if (detection.mobility == Mobility::fixed || detection.mobility == Mobility::dynamic)
+          feature.edge_distance_px = std::min(feature.edge_distance_px, detection.box.edge_distance_px(pixels[i]));
+        if (!detection.box.contains(pixels[i])) continue;
+        if (detection.mobility == Mobility::fixed) feature.in_fixed = true;
+        if (detection.mobility == Mobility::movable) feature.in_movable = true;
+        if (detection.mobility == Mobility::dynamic) {
+          feature.in_dynamic = true;
+          if (feature.dynamic_region == Membership::kNone ||
+              area(detection.box) < area(detections[static_cast<std::size_t>(feature.dynamic_region)].box))
+            feature.dynamic_region = static_cast<std::int16_t>(r);
+        }
+      }
+    }
+  }
+
+ private:
+  static float area(const Box& box) noexcept { return box.width * box.height; }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A host that tracks its features itself hands its matches over and pays for no matching.
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/matches.hpp"
+
+namespace stillpoint {
+
+/// Takes the host's own tracks. Before each `filter_frame`, set `reference_pixels`: one entry for each key point, in
+/// their order: where it was in the last frame that was filtered (distorted pixels), NaN where it was not seen.
+/// A list of another length means that the host gave no matches for this frame: every feature is lost.
+class ProvidedMatches {
+ public:
+  struct Options {
+    float border_px = 10.0f;  ///< nearer to the image border a feature stays out of ego-motion; 0 trusts all
+  };
+  Options options;
+
+  std::vector<Vector2f> reference_pixels;
+
+  void match(const FrameView& reference, const FrameView& current, Matches& matches) {
+    if (reference_pixels.size() != matches.host_count) return;
+    for (std::size_t i = 0; i < matches.host_count; ++i) {
+      const Vector2f pixel = matches.current.pixel[i], before = reference_pixels[i];
+      const float distance = current.gray.border_distance_px(pixel.x(), pixel.y());
+      if (!(distance >= 0.0f)) {
+        matches.state[i] = MatchState::outside;
+      } else if (reference.gray.border_distance_px(before.x(), before.y()) >= 0.0f) {
+        matches.reference.pixel[i] = before;
+        matches.state[i] = distance < options.border_px ? MatchState::near_edge : MatchState::matched;
+      }
+    }
+  }
+
+  void reset() noexcept { reference_pixels.clear(); }
+};
+
+}  // namespace stillpoint

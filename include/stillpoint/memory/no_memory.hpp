@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The paper remembers nothing: each frame is judged by itself.
+
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// The null memory.
+struct NoMemory {
+  void update(const Matches&, const Motion&, span<const FeatureScore>, span<Label>, Workspace&) const noexcept {}
+  void reset() noexcept {}
+};
+
+}  // namespace stillpoint

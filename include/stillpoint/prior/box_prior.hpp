@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The semantic prior: boxes of a detector, sorted into the paper's three groups.   detections → regions
+
+#include <cmath>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/regions.hpp"
+
+namespace stillpoint {
+
+/// Hands the detections of the current frame on (the paper, 3.2). Set `detections` before each `filter_frame`.
+class BoxPrior {
+ public:
+  struct Options {
+    float lowest_confidence = 0.0f;  ///< detections below it are left out; detectors apply their own threshold already
+  };
+  Options options;
+
+  std::vector<Detection> detections;  ///< of the coming frame; the host's to write, kept until it writes again
+
+  /// Detections that are not finite or have no area are left out.
+  void regions(const FrameView&, Regions& regions) const {
+    regions.detections.clear();
+    for (const Detection& detection : detections)
+      if (valid(detection.box) && detection.confidence >= options.lowest_confidence)
+        regions.detections.push_back(detection);
+  }
+
+ private:
+  static bool valid(const Box& box) noexcept {
+    return std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) && std::isfinite(box.height) &&
+           box.width > 0 && box.height > 0;
+  }
+};
+
+/// No prior: nothing is known of any place.
+struct NoPrior {
+  void regions(const FrameView&, Regions& regions) const noexcept { regions.detections.clear(); }
+};
+
+}  // namespace stillpoint
