@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Output files that are whole or not there.
+
+#include <cerrno>
+#include <cstddef>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "stillpoint/core/error.hpp"
+
+namespace stillpoint {
+
+/// Writes to a temporary file beside the target ("report.json.partial0") and gives it the target's name on `commit()`.
+/// A process that dies, or an error on the way, leaves the target as it was: missing, or the old file. (The file is not
+/// forced to the disk: this does not guard against a power cut.) Without `commit()` the destructor removes what was
+/// written.
+class AtomicFile {
+ public:
+  /// @throws Error if no file can be made in the target's folder, or the target is a folder.
+  explicit AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(target_, ignored))
+      throw Error(target_.string() + ": found a folder, expected a file to write");
+    // A name that exists belongs to another process or was left by a dead one: either way it is not ours to touch.
+    constexpr int kMostNames = 100;
+    for (int attempt = 0; attempt < kMostNames && file_ == nullptr; ++attempt) {
+      temporary_ = target_;
+      temporary_ += ".partial" + std::to_string(attempt);
+      errno = 0;
+      file_ = std::fopen(temporary_.string().c_str(), "wbx");
+      if (file_ == nullptr && errno != EEXIST) break;
+    }
+    if (file_ == nullptr) fail("cannot make " + temporary_.filename().string() + " beside it", errno);
+  }
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile() { discard(); }
+
+  /// Appends bytes as they are.
+  /// @throws Error if they can't be written (a full disk may show only at `commit()`), or after `commit()`.
+  AtomicFile& write(std::string_view text) {
+    require_open();
+    errno = 0;
+    if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) fail("cannot write", errno);
+    return *this;
+  }
+
+  /// Gives the file its name, over an older one if there is one.
+  /// @throws Error if anything is left that can't be written, or the name can't be given; the target is then unchanged.
+  void commit() {
+    require_open();
+    errno = 0;
+    const bool flushed = std::fflush(file_) == 0;
+    const int flush_error = errno;
+    const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+    if (!flushed || !closed) {
+      const int reason = flushed ? errno : flush_error;
+      remove_temporary();
+      fail("cannot write", reason);
+    }
+    std::error_code error;
+    std::filesystem::rename(temporary_, target_, error);
+    if (!error) return;
+    remove_temporary();
+    fail("cannot rename " + temporary_.filename().string(), error.value());
+  }
+
+ private:
+  void require_open() const {
+    if (file_ == nullptr) throw Error(target_.string() + ": is committed already, expected no further writing");
+  }
+
+  void discard() noexcept {
+    if (file_ == nullptr) return;
+    std::fclose(std::exchange(file_, nullptr));
+    remove_temporary();
+  }
+
+  void remove_temporary() noexcept {
+    std::error_code ignored;
+    std::filesystem::remove(temporary_, ignored);
+  }
+
+  [[noreturn]] void fail(const std::string& what, int error_number) const {
+    throw Error(target_.string() + ": " + what + ": " + std::generic_category().message(error_number));
+  }
+
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace stillpoint
