@@ -163,13 +163,15 @@ inline Scene along_the_ray(const SceneOptions& options = {}) {
   return scene;
 }
 
-/// Someone stands right before a standing camera, fills about four fifths of its view, and shifts from foot to foot.
+/// Someone stands right before a standing camera, fills more than three quarters of its view, and sways.
 inline Scene crowded_view(const SceneOptions& options = {}) {
   Scene scene = detail::stage("crowded_view", options);
   scene.camera_path = {Path({{0.0, {0.0, -1.17, -0.80}, 0.0, 0.0, 0.0}}), {}};
-  PathBuilder sway({-0.03, 0, -0.26}, 0.1);
-  for (int i = 0; i < 20; ++i) sway.slide_to({i % 2 == 0 ? 0.04 : -0.03, 0, -0.26}, 0.1, i % 2 == 0 ? 0.15 : -0.15);
-  scene.movers.push_back(walking_person(sway.path(), options.seed + 10));
+  PathBuilder sway({-0.03, 0, -0.22}, 0.1);
+  for (int i = 0; i < 20; ++i) sway.slide_to({i % 2 == 0 ? 0.04 : -0.03, 0, -0.22}, 0.1, i % 2 == 0 ? 0.15 : -0.15);
+  Mover person = walking_person(sway.path(), options.seed + 10);
+  for (Part& part : person.parts) part.joint.stride_rad = 0.0;  // no steps
+  scene.movers.push_back(person);
   return scene;
 }
 
