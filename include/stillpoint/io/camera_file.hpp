@@ -4,7 +4,7 @@
 
 // The camera of a sequence: from camera.yaml, or for an original folder of the TUM benchmark from the folder's name.
 
-#include <opencv2/core/persistence.hpp>
+#include <opencv2/core.hpp>
 
 #include <cmath>
 #include <filesystem>

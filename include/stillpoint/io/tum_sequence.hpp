@@ -4,7 +4,7 @@
 
 // A sequence in the layout of the TUM RGB-D benchmark: a folder with images, a camera, and what is known of them.
 
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include <cmath>
@@ -19,6 +19,7 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/io/camera_file.hpp"
+#include "stillpoint/io/image_file.hpp"
 #include "stillpoint/io/trajectory_file.hpp"
 #include "stillpoint/io/tum_frames.hpp"
 
@@ -64,7 +65,7 @@ class TumSequence {
   RgbdImages load(std::size_t index) const {
     const TumFrame& frame = frame_at(index);
     RgbdImages images;
-    images.colour = read_image(frame.colour_file, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    images.colour = read_image(frame.colour_file, cv::IMREAD_COLOR);
     require_size(frame.colour_file, images.colour);
 
     images.depth = read_image(frame.depth_file, cv::IMREAD_UNCHANGED);
@@ -110,18 +111,6 @@ class TumSequence {
       throw Error(folder_.string() + ": frame " + std::to_string(index) + " is asked for, expected one below " +
                   std::to_string(frames_.size()));
     return frames_[index];
-  }
-
-  static cv::Mat read_image(const std::filesystem::path& file, int flags) {
-    cv::Mat image;
-    std::string reason;
-    try {
-      image = cv::imread(file.string(), flags);
-    } catch (const cv::Exception& error) {
-      reason = " (" + error.err + ")";
-    }
-    if (image.empty()) throw Error(file.string() + ": cannot be read, expected a whole PNG or JPEG image" + reason);
-    return image;
   }
 
   static void require_type(const std::filesystem::path& file, const cv::Mat& image, int type) {

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Images from files, whole or not at all.
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "stillpoint/core/error.hpp"
+
+namespace stillpoint {
+
+namespace detail {
+
+/// False for a PNG or JPEG that breaks off. Decoders fill up what is missing of a JPEG with gray and say nothing.
+inline bool is_whole_image(std::string_view bytes) {
+  if (bytes.substr(0, 4) == "\x89PNG") return bytes.rfind("IEND") != bytes.npos;
+  if (bytes.substr(0, 2) == "\xff\xd8") {
+    // Between the start of the last scan and its end, 0xff is always followed by 0 or a restart marker.
+    const std::size_t last_scan = bytes.rfind("\xff\xda");
+    return last_scan != bytes.npos && bytes.find("\xff\xd9", last_scan) != bytes.npos;
+  }
+  return true;  // some other format: its decoder decides
+}
+
+}  // namespace detail
+
+/// Reads an image as it is in the file: not turned by what a camera noted in it.
+/// @param flags  `cv::IMREAD_COLOR`, `cv::IMREAD_UNCHANGED`, ...
+/// @return        never empty.
+/// @throws Error if the file is missing, breaks off, or is no image.
+inline cv::Mat read_image(const std::filesystem::path& file, int flags) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file.string() + ": no such file");
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  cv::Mat image;
+  std::string reason;
+  if (!bytes.empty() && detail::is_whole_image(bytes)) {
+    try {
+      if (flags != cv::IMREAD_UNCHANGED) flags |= cv::IMREAD_IGNORE_ORIENTATION;  // UNCHANGED (-1) implies it
+      image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), flags);
+    } catch (const cv::Exception& error) {
+      reason = " (" + error.err + ")";
+    }
+  }
+  if (image.empty()) throw Error(file.string() + ": cannot be read, expected a whole PNG or JPEG image" + reason);
+  return image;
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#include "stillpoint/io/atomic_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include "io_test_support.hpp"
+
+#if defined(__unix__)
+#include <sys/resource.h>
+#endif
+
+namespace stillpoint {
+namespace {
+
+TEST(AtomicFile, AppearsWhenItIsCommitted) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "out.txt";
+  AtomicFile file(target);
+  file.write("one\n").write("two\n");
+  EXPECT_FALSE(std::filesystem::exists(target));
+  file.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), "one\ntwo\n");
+  EXPECT_EQ(folder.count_files(), 1);
+}
+
+TEST(AtomicFile, WithoutCommitTheOldFileStaysAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  const auto target = folder.write("out.txt", "old");
+  {
+    AtomicFile file(target);
+    file.write("half");
+    EXPECT_EQ(folder.count_files(), 2);
+  }
+  EXPECT_EQ(TemporaryFolder::read(target), "old");
+  EXPECT_EQ(folder.count_files(), 1);
+}
+
+TEST(AtomicFile, ReplacesAnOlderFile) {
+  const TemporaryFolder folder;
+  const auto target = folder.write("out.txt", "a much longer old file");
+  AtomicFile file(target);
+  file.write("new");
+  file.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), "new");
+}
+
+TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "out.txt";
+  AtomicFile first(target), second(target);
+  first.write("first");
+  second.write("second");
+  second.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), "second");
+  first.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), "first");
+  EXPECT_EQ(folder.count_files(), 1);
+}
+
+TEST(AtomicFile, BytesAreWrittenAsTheyAre) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "out.bin";
+  const std::string bytes("\r\n\0\xff\n", 5);
+  AtomicFile file(target);
+  file.write(bytes);
+  file.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), bytes);
+}
+
+TEST(AtomicFile, FolderThatIsNotThereIsNamed) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "none" / "out.txt";
+  EXPECT_EQ(error_of([&] { AtomicFile{target}; }),
+            target.string() + ": cannot make out.txt.partial0 beside it: No such file or directory");
+  const auto below_file = folder.write("file", "") / "out.txt";
+  EXPECT_EQ(error_of([&] { AtomicFile{below_file}; }),
+            below_file.string() + ": cannot make out.txt.partial0 beside it: Not a directory");
+  EXPECT_EQ(error_of([&] { AtomicFile{folder.path()}; }),
+            folder.path().string() + ": found a folder, expected a file to write");
+}
+
+TEST(AtomicFile, NameThatCannotBeGivenIsAnErrorAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "out.txt";
+  AtomicFile file(target);
+  file.write("text");
+  std::filesystem::create_directory(target);  // after the constructor's check
+  const std::string message = error_of([&] { file.commit(); });
+  EXPECT_EQ(message.find(target.string() + ": cannot rename out.txt.partial0: "), 0u) << message;
+  EXPECT_EQ(folder.count_files(), 1);
+}
+
+TEST(AtomicFile, WritingAfterCommitIsAnError) {
+  const TemporaryFolder folder;
+  AtomicFile file(folder.path() / "out.txt");
+  file.commit();
+  EXPECT_NE(error_of([&] { file.write("more"); }).find("is committed already"), std::string::npos);
+  EXPECT_NE(error_of([&] { file.commit(); }).find("is committed already"), std::string::npos);
+}
+
+#if defined(__unix__)
+/// A limit on the size of files stands for a full disk: both make write() fail after some bytes.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) : old_handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &old_);
+    rlimit limit = old_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &old_);
+    std::signal(SIGXFSZ, old_handler_);
+  }
+
+ private:
+  void (*old_handler_)(int);
+  rlimit old_ = {};
+};
+
+TEST(AtomicFile, FullDiskIsAnErrorAndTheOldFileStays) {
+  const TemporaryFolder folder;
+  const auto target = folder.write("out.txt", "old");
+  // 5000 bytes stay in the buffer's hands until commit on some systems; 100000 do not.
+  for (const std::size_t bytes : {std::size_t{5000}, std::size_t{100000}}) {
+    std::string message;
+    {
+      const FileSizeLimit limit(4096);
+      message = error_of([&] {
+        AtomicFile file(target);
+        file.write(std::string(bytes, 'x'));
+        file.commit();
+      });
+    }
+    EXPECT_EQ(message, target.string() + ": cannot write: File too large");
+    EXPECT_EQ(TemporaryFolder::read(target), "old");
+    EXPECT_EQ(folder.count_files(), 1);
+  }
+}
+
+TEST(AtomicFile, FullDiskFoundAtCommitIsAnError) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "out.txt";
+  AtomicFile file(target);
+  file.write("few bytes stay in the buffer");
+  std::string message;
+  {
+    const FileSizeLimit limit(0);
+    message = error_of([&] { file.commit(); });
+  }
+  EXPECT_EQ(message, target.string() + ": cannot write: File too large");
+  EXPECT_EQ(folder.count_files(), 0);
+}
+#endif
+
+}  // namespace
+}  // namespace stillpoint

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the tests of readers and writers share: a folder that goes away, and the text of an error.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "stillpoint/core/error.hpp"
+
+namespace stillpoint {
+
+/// A new, empty folder, removed with all that is in it at the end of the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
+    const std::string name = std::string("stillpoint_") + test->test_suite_name() + "_" + test->name();
+    // create_directory says whether it made the folder: two runs at once get two.
+    for (int number = 0;; ++number) {
+      path_ = std::filesystem::temp_directory_path() / (name + "_" + std::to_string(number));
+      if (std::filesystem::create_directory(path_)) break;
+    }
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Writes a file, and the folders above it, and says where it is.
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << text;
+    return file;
+  }
+
+  static std::string read(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  }
+
+  int count_files() const {
+    return static_cast<int>(std::distance(std::filesystem::recursive_directory_iterator(path_),
+                                          std::filesystem::recursive_directory_iterator()));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The message of the `Error` that `action` throws.
+template <class Action>
+std::string error_of(Action&& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace stillpoint
