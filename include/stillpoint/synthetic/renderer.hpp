@@ -76,6 +76,9 @@ class SyntheticSequence {
     PartMotion motion;
     std::uint8_t mover_id;
   };
+  /// A pixel gathers light from so many pixels' width: a lens is a little softer than its sensor, so that corners can
+  /// be located to a small part of a pixel.
+  static constexpr float kLensBlur = 1.4f;
   static constexpr std::uint16_t kNothing = 0xffff;  ///< a key is 8 · actor + face
 
   static void check(const Solid& solid) {
@@ -156,7 +159,7 @@ class SyntheticSequence {
           depth[u] = 0.0f;
         } else {
           const Actor& actor = actors_[key / 8];
-          shading = actor.placed.shading(grid_.at(u, v), {depth[u], key % 8}, 0.5f * pixel_width_);
+          shading = actor.placed.shading(grid_.at(u, v), {depth[u], key % 8}, 0.5f * kLensBlur * pixel_width_);
           cosine_[at] = shading.cosine;
           if (actor.mover_id != 0) {
             const auto p = actor.placed.point(grid_.at(u, v), depth[u]);
@@ -190,7 +193,7 @@ class SyntheticSequence {
     const PlacedSolid& placed = actors_[key / 8].placed;
     Bgr sum;
     for (int i = 0; i < 4; ++i) {
-      const Ray ray = grid_.beside(u, v, (i & 1) != 0 ? 0.25f : -0.25f, (i & 2) != 0 ? 0.25f : -0.25f);
+      const Ray ray = grid_.beside(u, v, offset(i & 1, 2), offset(i >> 1, 2));
       add(placed.colour(ray, {placed.depth_on_face(ray, key % 8, depth_m), key % 8}, shading.level),
           0.25f * shading.lit, sum);
     }
@@ -205,8 +208,7 @@ class SyntheticSequence {
       if (actors_[i].window.contains(u, v)) near_.push_back(i);
     Bgr sum;
     for (int i = 0; i < kSide * kSide; ++i) {
-      const Ray ray = grid_.beside(u, v, (static_cast<float>(i % kSide) + 0.5f) / kSide - 0.5f,
-                                   (static_cast<float>(i / kSide) + 0.5f) / kSide - 0.5f);
+      const Ray ray = grid_.beside(u, v, offset(i % kSide, kSide), offset(i / kSide, kSide));
       Hit first{1e9f, 0}, hit;
       const PlacedSolid* seen = nullptr;
       for (const std::size_t k : near_)
@@ -215,10 +217,15 @@ class SyntheticSequence {
           seen = &actors_[k].placed;
         }
       if (seen == nullptr) continue;
-      const Shading shading = seen->shading(ray, first, 0.5f * pixel_width_);
+      const Shading shading = seen->shading(ray, first, 0.5f * kLensBlur * pixel_width_);
       add(seen->colour(ray, first, shading.level), shading.lit / (kSide * kSide), sum);
     }
     return sum;
+  }
+
+  /// Of sample i out of `count` in a row, from the pixel's centre, pixels.
+  static float offset(int i, int count) noexcept {
+    return kLensBlur * ((static_cast<float>(i) + 0.5f) / static_cast<float>(count) - 0.5f);
   }
 
   static void add(const Bgr& colour, float weight, Bgr& sum) noexcept {
