@@ -106,14 +106,15 @@ class ImageBuffer {
   PixelFormat format_ = PixelFormat::none;
 };
 
-/// Luma of a BGR image: 0.114 B + 0.587 G + 0.299 R in 14-bit fixed point (ITU-R BT.601, the weights OpenCV uses).
+/// Luma of a BGR image: 0.114 B + 0.587 G + 0.299 R in 15-bit fixed point (ITU-R BT.601; byte for byte what OpenCV
+/// gives).
 inline void gray_from_bgr(const ImageView& colour, ImageBuffer& gray) {
   gray.resize(colour.width, colour.height, PixelFormat::gray8);
   for (int v = 0; v < colour.height; ++v) {
     const std::uint8_t* bgr = colour.row<std::uint8_t>(v);
     std::uint8_t* const out = gray.row<std::uint8_t>(v);
     for (int u = 0; u < colour.width; ++u, bgr += 3)
-      out[u] = static_cast<std::uint8_t>((bgr[0] * 1868 + bgr[1] * 9617 + bgr[2] * 4899 + 8192) >> 14);
+      out[u] = static_cast<std::uint8_t>((bgr[0] * 3735 + bgr[1] * 19235 + bgr[2] * 9798 + 16384) >> 15);
   }
 }
 
