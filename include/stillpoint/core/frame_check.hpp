@@ -25,12 +25,16 @@ struct FrameCheck {
                     const Camera& camera) const noexcept {
     const ImageView& image = frame.image();
     if (image.empty()) return Status::no_image;
-    if (image.format != PixelFormat::gray8 && image.format != PixelFormat::bgr8) return Status::unsupported_image;
+    if (!frame.gray.empty() && frame.gray.format != PixelFormat::gray8) return Status::unsupported_image;
+    if (!frame.colour.empty() && frame.colour.format != PixelFormat::bgr8) return Status::unsupported_image;
     const PixelFormat depth = frame.depth.image.format;
     const bool depth_readable =
         depth == PixelFormat::depth32f || (depth == PixelFormat::depth16 && frame.depth.factor > 0);
     if (!frame.depth.empty() && !depth_readable) return Status::unsupported_image;
-    if (image.width != camera.width() || image.height != camera.height()) return Status::size_changed;
+    const auto other_size = [&camera](const ImageView& view) {
+      return !view.empty() && (view.width != camera.width() || view.height != camera.height());
+    };
+    if (other_size(frame.gray) || other_size(frame.colour)) return Status::size_changed;
     if (!std::isfinite(frame.timestamp_s)) return Status::invalid_time;
     if (!last_timestamp_s) return Status::first_frame;
     if (frame.timestamp_s == *last_timestamp_s) return Status::duplicate_frame;
