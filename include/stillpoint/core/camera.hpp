@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "stillpoint/core/distortion.hpp"
@@ -19,7 +20,7 @@ namespace stillpoint {
 template <class Distortion>
 class PinholeCamera {
  public:
-  /// @throws Error unless both focal lengths and the size are positive and everything is finite.
+  /// @throws Error unless both focal lengths and the size are positive and everything is finite, the lens too.
   PinholeCamera(double fx, double fy, double cx, double cy, int width, int height, Distortion distortion = {})
       : fx_(fx), fy_(fy), cx_(cx), cy_(cy), width_(width), height_(height), distortion_(std::move(distortion)) {
     require(std::isfinite(fx) && fx > 0, "fx", fx, "a positive focal length in pixels");
@@ -28,6 +29,8 @@ class PinholeCamera {
     require(std::isfinite(cy), "cy", cy, "a finite principal point in pixels");
     require(width > 0, "width", width, "a positive number of pixels");
     require(height > 0, "height", height, "a positive number of pixels");
+    // A point that every coefficient moves: one that is not finite shows, whatever the model.
+    require(distortion_.distort(Vector2d(0.1, 0.2)).allFinite(), "distortion", "not finite", "finite coefficients");
   }
 
   double fx() const noexcept { return fx_; }
@@ -62,9 +65,12 @@ class PinholeCamera {
   Vector2d undistort(const Vector2d& pixel) const { return to_pixel(distortion_.undistort(to_plane(pixel))); }
 
  private:
-  template <class Value>
+  static void require(bool holds, const char* name, const std::string& found, const char* expected) {
+    if (!holds) throw Error(std::string("camera: ") + name + " is " + found + ", expected " + expected);
+  }
+  template <class Value, class = std::enable_if_t<std::is_arithmetic_v<Value>>>
   static void require(bool holds, const char* name, Value found, const char* expected) {
-    if (!holds) throw Error(std::string("camera: ") + name + " is " + std::to_string(found) + ", expected " + expected);
+    require(holds, name, std::to_string(found), expected);
   }
 
   Vector2d to_plane(const Vector2d& pixel) const noexcept { return {(pixel.x() - cx_) / fx_, (pixel.y() - cy_) / fy_}; }
