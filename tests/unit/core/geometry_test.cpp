@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/core/geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stillpoint/core/random.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr double kRounding = 1e-12;  // a few operations on numbers of size one
+
+Vector3d any_vector(Random& random) { return {random.gaussian(), random.gaussian(), random.gaussian()}; }
+
+TEST(Geometry, SkewIsTheCrossProduct) {
+  EXPECT_EQ(skew({1, 2, 3}) * Vector3d(4, 5, 6), Vector3d(-3, 6, -3));  // (2·6 − 3·5, 3·4 − 1·6, 1·5 − 2·4)
+  Random random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d a = any_vector(random), b = any_vector(random);
+    EXPECT_LE((skew(a) * b - a.cross(b)).norm(), kRounding);
+  }
+}
+
+TEST(Geometry, RotationFromVectorTurnsTheRightWay) {
+  const double quarter = std::acos(0.0);
+  const Matrix3d about_z = rotation_from_vector({0, 0, quarter});
+  EXPECT_LE((about_z * Vector3d(1, 0, 0) - Vector3d(0, 1, 0)).norm(), kRounding);
+  EXPECT_EQ(rotation_from_vector(Vector3d::Zero()), Matrix3d::Identity());
+}
+
+TEST(Geometry, RotationAngleUndoesRotationFromVector) {
+  Random random(2);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = std::pow(10.0, random.uniform(-11.0, 0.497));  // up to just below π
+    const Vector3d axis = any_vector(random).normalized();
+    // Of the angle for small ones; near π the sine is small and the rounding of the cosine takes over.
+    EXPECT_NEAR(rotation_angle(rotation_from_vector(angle * axis)), angle, 1e-7 * angle) << angle;
+  }
+  const double pi = std::acos(-1.0);
+  EXPECT_NEAR(rotation_angle(rotation_from_vector({pi, 0, 0})), pi, kRounding);
+  EXPECT_EQ(rotation_angle(Matrix3d::Identity()), 0.0);
+}
+
+TEST(Geometry, OrthonormalizedStopsTheDriftOfLongChains) {
+  Random random(3);
+  Pose step = Pose::Identity();
+  step.linear() = rotation_from_vector({0.1, -0.2, 0.3});
+  step.translation() = Vector3d(0.01, 0.02, 0.03);
+  Pose chain = Pose::Identity();
+  for (int i = 0; i < 10000; ++i) chain = orthonormalized(chain * step);
+  EXPECT_LE((chain.linear() * chain.linear().transpose() - Matrix3d::Identity()).norm(), 1e-14);
+
+  Pose skewed = step;
+  skewed.linear() *= 1.001;
+  const Matrix3d repaired = orthonormalized(skewed).linear();
+  EXPECT_LE((repaired * repaired.transpose() - Matrix3d::Identity()).norm(), kRounding);
+  EXPECT_LE((repaired - step.linear()).norm(), 1e-3) << "not farther away than the input was";
+  EXPECT_EQ(orthonormalized(skewed).translation(), step.translation());
+}
+
+}  // namespace
+}  // namespace stillpoint
