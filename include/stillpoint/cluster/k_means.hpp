@@ -120,7 +120,7 @@ inline span<Eigen::Vector3f> k_means_plus_plus(const PointArrays& points, std::s
   return centres;
 }
 
-/// Lloyd's iteration from given centres until no assignment changes any more, or for `max_iterations`.
+/// Lloyd's iteration from given centres until no assignment changes any more, or for `max_iterations` (at least one).
 /// A cluster that runs empty takes the point that is farthest from its own centre. O(n k) an iteration.
 /// @param centres k of them, at most points.size; moved to their final places
 inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centres, int max_iterations,
@@ -134,22 +134,22 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
   const span<Vector3d> sum = workspace.take<Vector3d>(k, Vector3d::Zero());
   detail::NearestCentre nearest(points, workspace);
 
-  bool changed = true;
-  while (changed && result.iterations < max_iterations) {
+  bool improves = true;
+  while (improves && (result.iterations == 0 || result.iterations < max_iterations)) {
     ++result.iterations;
-    changed = false;
+    bool changed = false;
+    double left = 0;  // what moving the centres may still gain
     nearest.clear();
     for (std::size_t c = 0; c < k; ++c) nearest.offer(centres[c], static_cast<std::int32_t>(c));
     std::fill(sum.begin(), sum.end(), Vector3d::Zero());
     std::fill(result.member_count.begin(), result.member_count.end(), std::size_t{0});
-    result.cost = 0;
     for (std::size_t i = 0; i < points.size; ++i) {
       changed = changed || nearest.index(i) != result.cluster[i];
       result.cluster[i] = nearest.index(i);
       const auto c = static_cast<std::size_t>(nearest.index(i));
       sum[c] += points[i].cast<double>();
       ++result.member_count[c];
-      result.cost += static_cast<double>(nearest.squared(i));
+      left += static_cast<double>(nearest.squared(i));
     }
     for (std::size_t c = 0; c < k; ++c) {
       if (result.member_count[c] > 0) continue;
@@ -168,7 +168,11 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
     }
     for (std::size_t c = 0; c < k; ++c)
       centres[c] = (sum[c] / static_cast<double>(result.member_count[c])).cast<float>();
+    improves = changed && left > 0;  // with fewer different points than centres, empty clusters change for ever
   }
+  for (std::size_t i = 0; i < points.size; ++i)
+    result.cost +=
+        static_cast<double>((points[i] - centres[static_cast<std::size_t>(result.cluster[i])]).squaredNorm());
   return result;
 }
 
