@@ -5,6 +5,7 @@
 // What moves together?   The paper's classifier, Eq. 11 to 14: clusters of the features in dynamic boxes, each judged
 // by its mean score.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -60,7 +61,8 @@ class RegionClusters {
   void judge_clusters(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
                       span<const std::size_t> tested, span<Label> labels, Workspace& workspace) const {
     const std::size_t m = tested.size();
-    const std::size_t k = m < options.features_per_cluster ? m : m / options.features_per_cluster;
+    const std::size_t k =
+        m < options.features_per_cluster ? m : m / std::max<std::size_t>(options.features_per_cluster, 1);
     PointArrays points(m, workspace);
     for (std::size_t j = 0; j < m; ++j) points.set(j, matches.current.point[tested[j]]);
     Random random(options.seed);
