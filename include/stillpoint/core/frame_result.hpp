@@ -44,7 +44,7 @@ class FrameResult {
     mask.resize(width_, height_, PixelFormat::gray8);
     for (int v = 0; v < height_; ++v) std::fill_n(mask.row<std::uint8_t>(v), width_, std::uint8_t{255});
     for (std::size_t i = 0; i < labels_.size(); ++i)
-      if (keep_[i] == 0 && pixel_[i].allFinite()) drop_disc(mask, pixel_[i], radius_px);
+      if (keep_[i] == 0) drop_disc(mask, pixel_[i], radius_px);
   }
 
  private:
@@ -82,9 +82,11 @@ class FrameResult {
 
   static void drop_disc(ImageBuffer& mask, const Vector2f& centre, int radius_px) {
     const ImageView view = mask.view();
+    if (!(view.border_distance_px(centre.x(), centre.y()) >= -1.0f - static_cast<float>(radius_px))) return;
+    const double radius_sq_px = static_cast<double>(radius_px) * radius_px;
     const int u0 = static_cast<int>(std::lround(centre.x())), v0 = static_cast<int>(std::lround(centre.y()));
     for (int v = std::max(v0 - radius_px, 0); v <= std::min(v0 + radius_px, view.height - 1); ++v) {
-      const int half = static_cast<int>(std::sqrt(static_cast<double>(radius_px * radius_px - (v - v0) * (v - v0))));
+      const int half = static_cast<int>(std::sqrt(radius_sq_px - static_cast<double>(v - v0) * (v - v0)));
       const int begin = std::max(u0 - half, 0), end = std::min(u0 + half + 1, view.width);
       if (begin < end) std::fill(mask.row<std::uint8_t>(v) + begin, mask.row<std::uint8_t>(v) + end, std::uint8_t{0});
     }
