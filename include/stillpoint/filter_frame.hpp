@@ -57,7 +57,7 @@ class FrameFilter : private PolicyContract<Policies> {
     if (FrameCheck::rejects(status)) return result_;
     if (status != Status::ok) reset();
     const FrameView frame = with_gray(host_frame);
-    if (status == Status::ok) status = judge(frame);
+    if (status == Status::ok) status = pixels_.empty() ? Status::no_keypoints : judge(frame);
     remember(frame);
     return result_;
   }
