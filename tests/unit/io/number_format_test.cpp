@@ -32,6 +32,7 @@ TEST(FormatTimestamp, IsWhatStoodInTheFile) {
   for (const char* text : {"1.033333", "1305031102.160407", "0.000000", "1403636579.763556", "12.123456789"})
     EXPECT_EQ(format_timestamp(parse_number(text).value()), text);
   EXPECT_EQ(format_timestamp(1.5), "1.500000");
+  EXPECT_EQ(format_timestamp(1.03125), "1.031250");
   EXPECT_EQ(format_timestamp(std::numeric_limits<double>::infinity()), "inf");
 }
 
