@@ -62,17 +62,17 @@ class FrameFilter : private PolicyContract<Policies> {
     return result_;
   }
 
-  /// The host's own pose of the frame that was filtered last, after its tracking. Two in a row predict the next motion.
+  /// The host's own pose of the frame that was filtered last, after its tracking. Those of two frames in a row predict
+  /// the next motion. A pose that is not finite is none.
   void feedback(const Pose& world_from_camera) {
-    if (feedback_world_from_camera_)
-      motion_prior_.current_from_reference =
-          orthonormalized(world_from_camera.inverse() * *feedback_world_from_camera_);
-    feedback_world_from_camera_ = world_from_camera;
+    if (!world_from_camera.matrix().allFinite()) return;
+    world_from_last_ = world_from_camera;
+    if (world_from_second_last_) expect_motion(orthonormalized(world_from_camera.inverse() * *world_from_second_last_));
   }
 
-  /// What an IMU or wheels say of the coming motion; holds for the next frame.
+  /// What an IMU or wheels say of the coming motion; holds for the next frame. A pose that is not finite is none.
   void expect_motion(const Pose& current_from_reference) {
-    motion_prior_.current_from_reference = current_from_reference;
+    if (current_from_reference.matrix().allFinite()) motion_prior_.current_from_reference = current_from_reference;
   }
 
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
@@ -81,7 +81,8 @@ class FrameFilter : private PolicyContract<Policies> {
     matcher.reset();
     memory.reset();
     last_timestamp_s_.reset();
-    feedback_world_from_camera_.reset();
+    world_from_last_.reset();
+    world_from_second_last_.reset();
     motion_prior_ = MotionPrior{};
     filter_from_camera_ = Pose::Identity();
   }
@@ -131,6 +132,8 @@ class FrameFilter : private PolicyContract<Policies> {
       history_.clear();  // the older frames' poses are not known from here
     history_.push(frame, filter_from_camera_);
     last_timestamp_s_ = frame.timestamp_s;
+    world_from_second_last_ = world_from_last_;
+    world_from_last_.reset();
     motion_prior_ = MotionPrior{};
     if (motion.usable()) motion_prior_.current_from_reference = motion.current_from_reference;
   }
@@ -163,7 +166,7 @@ class FrameFilter : private PolicyContract<Policies> {
   FrameResult result_;
   MotionPrior motion_prior_;
   Pose filter_from_camera_ = Pose::Identity();
-  std::optional<Pose> feedback_world_from_camera_;
+  std::optional<Pose> world_from_last_, world_from_second_last_;  // the host's poses of the last two frames
   std::optional<double> last_timestamp_s_;
 };
 
