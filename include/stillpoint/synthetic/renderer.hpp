@@ -117,7 +117,7 @@ class SyntheticSequence {
   void cast(ImageBuffer& exact_depth) {
     const int width = scene_.camera.width(), height = scene_.camera.height();
     exact_depth.resize(width, height, PixelFormat::depth32f);
-    keys_.assign(static_cast<std::size_t>(width) * height, kNothing);
+    keys_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kNothing);
     for (int v = 0; v < height; ++v) std::fill_n(exact_depth.row<float>(v), width, 1e9f);
     for (std::size_t i = 0; i < actors_.size(); ++i) {
       const Actor& actor = actors_[i];
@@ -150,7 +150,8 @@ class SyntheticSequence {
       std::uint8_t* const labels = frame.labels.row<std::uint8_t>(v);
       std::uint8_t* const ids = frame.mover_ids.row<std::uint8_t>(v);
       for (int u = 0; u < width; ++u) {
-        const std::size_t at = static_cast<std::size_t>(v) * width + u;
+        const std::size_t at =
+            static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
         const std::uint16_t key = keys_[at];
         labels[u] = kStatic;
         ids[u] = 0;

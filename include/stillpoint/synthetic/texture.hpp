@@ -48,7 +48,7 @@ class Texture {
     if (!(texels_per_metre > 0))
       throw Error("texture: texels_per_metre is " + std::to_string(texels_per_metre) + ", expected more than 0");
     if (style.colours.empty()) throw Error("texture: no colour in the style, expected at least one");
-    levels_.push_back({size_px, std::vector<std::uint32_t>(static_cast<std::size_t>(size_px) * size_px)});
+    levels_.push_back({size_px, std::vector<std::uint32_t>(place(size_px, size_px, 0))});
     Random random(seed);
     paint_ground(style, random);
     for (double mark_m = style.largest_mark_m; mark_m >= style.smallest_mark_m; mark_m *= 0.5)
@@ -79,6 +79,11 @@ class Texture {
     int size;
     std::vector<std::uint32_t> texels;
   };
+
+  /// Index of an element of a row-major square.
+  static std::size_t place(int size, int row, int column) noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(column);
+  }
 
   static std::uint32_t packed(const Bgr& colour) noexcept {
     const auto byte = [](float value) { return static_cast<std::uint32_t>(std::min(255.0f, std::max(0.0f, value))); };
@@ -111,13 +116,13 @@ class Texture {
   }
 
   static Level halved(const Level& fine) {
-    Level coarse{fine.size / 2, std::vector<std::uint32_t>(static_cast<std::size_t>(fine.size) * fine.size / 4)};
+    Level coarse{fine.size / 2, std::vector<std::uint32_t>(place(fine.size / 2, fine.size / 2, 0))};
     for (int y = 0; y < coarse.size; ++y) {
       const std::uint32_t* const row = fine.texels.data() + static_cast<std::ptrdiff_t>(2 * y) * fine.size;
       for (int x = 0; x < coarse.size; ++x) {
         const std::uint64_t sum = lanes(row[2 * x]) + lanes(row[2 * x + 1]) + lanes(row[fine.size + 2 * x]) +
                                   lanes(row[fine.size + 2 * x + 1]) + 0x0002'0002'0002u;
-        coarse.texels[static_cast<std::size_t>(y) * coarse.size + x] =
+        coarse.texels[place(coarse.size, y, x)] =
             static_cast<std::uint32_t>(((sum >> 2) & 0xff) | ((sum >> 18) & 0xff) << 8 | ((sum >> 34) & 0xff) << 16);
       }
     }
@@ -132,7 +137,7 @@ class Texture {
   void paint_ground(const TextureStyle& style, Random& random) {
     const int size = levels_[0].size;
     const int cells = std::max(1, static_cast<int>(std::lround(size / (style.cell_m * texels_per_metre_))));
-    std::vector<double> gains(static_cast<std::size_t>(cells) * cells);
+    std::vector<double> gains(place(cells, cells, 0));
     for (double& gain : gains) gain = random.uniform(0.8, 1.15);
     for (int y = 0; y < size; ++y) {
       const int row = y * cells / size;
@@ -143,15 +148,14 @@ class Texture {
           case Ground::plain: break;
           case Ground::planks: gain = y * cells % size < 2 * cells ? 0.5 : gains[static_cast<std::size_t>(row)]; break;
           case Ground::tiles:
-            gain = y * cells % size < 3 * cells || x * cells % size < 3 * cells
-                       ? 0.6
-                       : gains[static_cast<std::size_t>(row) * cells + column];
+            gain =
+                y * cells % size < 3 * cells || x * cells % size < 3 * cells ? 0.6 : gains[place(cells, row, column)];
             break;
           case Ground::stripes: gain = (column & 1) != 0 ? 0.75 : 1.0; break;
-          case Ground::blocks: gain = gains[static_cast<std::size_t>(row) * cells + column]; break;
+          case Ground::blocks: gain = gains[place(cells, row, column)]; break;
         }
         gain *= random.uniform(0.97, 1.03);  // the grain of the material
-        levels_[0].texels[static_cast<std::size_t>(y) * size + x] = packed(brighter(style.colours[0], gain));
+        levels_[0].texels[place(size, y, x)] = packed(brighter(style.colours[0], gain));
       }
     }
   }
@@ -181,7 +185,7 @@ class Texture {
           if (kind == 1 ? a * a + b * b > 1.0f : far > 1.0f) continue;
           const bool dark = (kind == 2 && far < 0.55f) || (kind == 3 && (a < 0.0f) == (b < 0.0f));
           const int x = (centre_x + dx) & (size - 1), y = (centre_y + dy) & (size - 1);
-          levels_[0].texels[static_cast<std::size_t>(y) * size + x] = dark ? inner : value;
+          levels_[0].texels[place(size, y, x)] = dark ? inner : value;
         }
     }
   }

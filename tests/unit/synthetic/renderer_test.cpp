@@ -121,6 +121,44 @@ TEST(SyntheticSequence, CubeBeforeWallHasTheDepthAndOutlineOfTheHandComputation)
   EXPECT_EQ(frame.boxes[0].visible_pixels, 350 * 350);
 }
 
+TEST(SyntheticSequence, NearerSolidsHideFartherOnesInAnyOrder) {
+  Scene scene = cube_before_wall();
+  scene.movers.push_back(scene.movers[0]);
+  scene.movers[1].parts[0].solid.object_from_solid.translation().z() = 2.2;  // later in the list, and behind
+  SyntheticSequence sequence(scene);
+  SyntheticFrame frame;
+  sequence.render(0, frame);
+  EXPECT_EQ(frame.mover_ids.view().row<std::uint8_t>(240)[320], 1);
+  EXPECT_NEAR(exact_m(frame, 320, 240), 1.5, 1e-6);
+}
+
+TEST(SyntheticSequence, PictureLiesOnItsDepth) {
+  // The outline falls between pixels 144 and 145 on the left, 494 and 495 on the right: a bright cube before a dark
+  // wall must look the same from both sides. A picture a quarter of a pixel beside its depth would differ by 50 grey
+  // levels.
+  constexpr double kGrain = 3.0;  // the material's grain, averaged over the rows
+  Scene scene = cube_before_wall();
+  TextureStyle dark, bright;
+  dark.colours = {{40, 40, 40}};
+  bright.colours = {{200, 200, 200}};
+  dark.coverage = bright.coverage = 0;
+  scene.furniture[0].textures.fill(paint(64, 50, dark, 1));
+  scene.movers[0].parts[0].solid.textures.fill(paint(64, 50, bright, 1));
+  SyntheticSequence sequence(scene);
+  SyntheticFrame frame;
+  sequence.render(0, frame);
+  for (const int u : {143, 144, 145, 146}) {
+    double across = 0, down = 0;
+    for (int i = 0; i < 200; ++i) {
+      const auto gray = [&](int x, int y) { return int{frame.gray.view().row<std::uint8_t>(y)[x]}; };
+      across += (gray(u, 140 + i) - gray(639 - u, 140 + i)) / 200.0;
+      down += (gray(220 + i, u - 80) - gray(220 + i, 479 - (u - 80))) / 200.0;
+    }
+    EXPECT_NEAR(across, 0.0, kGrain) << u;
+    EXPECT_NEAR(down, 0.0, kGrain) << u;
+  }
+}
+
 TEST(SyntheticSequence, LabelsFollowParkedMovingParked) {
   Scene scene = cube_before_wall();
   // At rest for 1 s, 0.3 m/s for 1 s (10 mm a frame), at rest. Frame 30 is the last that has not moved; five frames
