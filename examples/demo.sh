@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# demo.sh [ARGUMENT...]: installs what is missing (as root on Debian), builds stillpoint_run, runs it on its synthetic
+# scene and says where the report is. Arguments go to stillpoint_run. From any folder:
+#   bash examples/demo.sh
+set -euo pipefail
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build=$root/build/demo
+
+bash "$root/tests/install_packages.sh" g++ cmake ninja-build libopencv-dev libeigen3-dev libcli11-dev \
+  nlohmann-json3-dev < /dev/null
+
+echo "Building stillpoint_run: a few minutes, the first time."
+cmake -S "$root" -B "$build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_EXAMPLES=ON \
+  -DSTILLPOINT_BUILD_TESTS=OFF -DSTILLPOINT_BUILD_BENCHMARKS=OFF -DSTILLPOINT_BUILD_DOCS=OFF > /dev/null
+cmake --build "$build" --target stillpoint_run
+
+"$build/examples/stillpoint_run" --demo --out "$build/report" "$@"

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The numbers of a run: counts, times, trajectory errors, recall and false alarms.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frame_record.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/evaluation/error_statistics.hpp"
+#include "stillpoint/evaluation/feature_score.hpp"
+#include "stillpoint/evaluation/trajectory.hpp"
+#include "stillpoint/evaluation/trajectory_error.hpp"
+
+namespace stillpoint_run {
+
+/// What a run leaves behind, as far as it fits into memory.
+struct RunRecord {
+  std::string sequence;
+  std::vector<FrameSummary> frames;
+  bool has_backend = false, has_stages = false, has_labels = false;
+  stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame
+  std::optional<stillpoint::Trajectory> ground_truth;
+  stillpoint::FilterScore labels;
+};
+
+struct Spread {
+  double median = 0.0, p95 = 0.0, max = 0.0;
+};
+
+/// Median, 95th percentile (the smallest value that 95 % do not exceed) and maximum; empty of nothing.
+inline std::optional<Spread> spread_of(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  const double median = stillpoint::error_statistics(values).median;
+  std::sort(values.begin(), values.end());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size())));
+  return Spread{median, values[rank - 1], values.back()};
+}
+
+/// Root mean square of the relative error over a delta; empty where the trajectory is too short.
+struct RelativeError {
+  std::optional<double> translation_m, rotation_deg;
+};
+
+struct TrajectoryFigures {
+  std::optional<std::size_t> frames_without_pose;  ///< empty without a backend
+  std::optional<double> ate_rmse_m;
+  RelativeError rpe_frame, rpe_second;  ///< over one frame and over one second
+  stillpoint::AbsoluteTrajectoryError absolute;
+};
+
+struct StageTime {
+  std::string name;
+  std::optional<Spread> ms;
+};
+
+struct Figures {
+  std::size_t features = 0, kept = 0;
+  std::vector<std::pair<std::string, std::size_t>> statuses;  ///< those that occurred, in the order of the enum
+  std::vector<StageTime> times;
+  std::optional<double> features_per_frame, kept_share, improvement_percent;
+  TrajectoryFigures filtered, unfiltered;
+};
+
+namespace detail {
+
+inline std::optional<double> rmse(const std::vector<double>& errors) {
+  const stillpoint::ErrorStatistics statistics = stillpoint::error_statistics(errors);
+  return std::isfinite(statistics.rmse) ? std::optional(statistics.rmse) : std::nullopt;
+}
+
+inline RelativeError relative_error(const RunRecord& run, const stillpoint::Trajectory& estimate, double delta_frames,
+                                    stillpoint::PairSelection pairs) {
+  stillpoint::RelativeErrorOptions options;
+  options.delta = delta_frames;
+  options.pairs = pairs;
+  const stillpoint::TrajectoryErrors errors =
+      stillpoint::relative_trajectory_error(*run.ground_truth, estimate, options);
+  return {rmse(errors.translation_m), rmse(errors.rotation_deg)};
+}
+
+/// How many frames make a second, at least one; by the median time between frames.
+inline double frames_per_second(const std::vector<FrameSummary>& frames) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < frames.size(); ++i) steps_s.push_back(frames[i].timestamp_s - frames[i - 1].timestamp_s);
+  if (steps_s.empty()) return 1.0;
+  return std::max(1.0, std::round(1.0 / stillpoint::error_statistics(steps_s).median));
+}
+
+inline TrajectoryFigures trajectory_figures(const RunRecord& run, const stillpoint::Trajectory& estimate) {
+  TrajectoryFigures figures;
+  if (!run.has_backend) return figures;
+  figures.frames_without_pose = run.frames.size() - estimate.size();
+  if (!run.ground_truth) return figures;
+  figures.absolute = stillpoint::absolute_trajectory_error(*run.ground_truth, estimate, stillpoint::Alignment::se3);
+  figures.ate_rmse_m = rmse(figures.absolute.errors.translation_m);
+  figures.rpe_frame = relative_error(run, estimate, 1.0, stillpoint::PairSelection::consecutive);
+  figures.rpe_second = relative_error(run, estimate, frames_per_second(run.frames), stillpoint::PairSelection::all);
+  return figures;
+}
+
+/// Times are those of frames that were judged: on the others the stages did not run.
+inline std::vector<StageTime> stage_times(const RunRecord& run) {
+  const auto spread = [&run](bool judged_only, auto&& read) {
+    std::vector<double> values;
+    for (const FrameSummary& frame : run.frames)
+      if (!judged_only || (run.has_stages && stillpoint::judged(frame.status))) values.push_back(read(frame));
+    return spread_of(std::move(values));
+  };
+  std::vector<StageTime> times;
+  for (std::size_t s = 0; s < stillpoint::kStageCount; ++s) {
+    const auto stage = static_cast<stillpoint::Stage>(s);
+    times.push_back({to_string(stage), spread(true, [stage](const FrameSummary& f) { return f.timings[stage]; })});
+  }
+  times.push_back({"filter", spread(true, [](const FrameSummary& f) { return f.timings.total_ms(); })});
+  times.push_back({"extract", spread(false, [](const FrameSummary& f) { return f.extract_ms; })});
+  if (run.has_backend) times.push_back({"track", spread(false, [](const FrameSummary& f) { return f.track_ms; })});
+  return times;
+}
+
+}  // namespace detail
+
+/// Computes all figures of a run.
+inline Figures evaluate(const RunRecord& run) {
+  Figures figures;
+  for (int s = 0; s <= static_cast<int>(stillpoint::Status::keep_floor); ++s) {
+    const auto status = static_cast<stillpoint::Status>(s);
+    const auto count = std::count_if(run.frames.begin(), run.frames.end(),
+                                     [status](const FrameSummary& frame) { return frame.status == status; });
+    if (count > 0) figures.statuses.emplace_back(to_string(status), static_cast<std::size_t>(count));
+  }
+  for (const FrameSummary& frame : run.frames) {
+    figures.features += frame.features;
+    figures.kept += frame.kept;
+  }
+  if (!run.frames.empty())
+    figures.features_per_frame = static_cast<double>(figures.features) / static_cast<double>(run.frames.size());
+  if (figures.features > 0)
+    figures.kept_share = static_cast<double>(figures.kept) / static_cast<double>(figures.features);
+  figures.times = detail::stage_times(run);
+  figures.filtered = detail::trajectory_figures(run, run.filtered);
+  figures.unfiltered = detail::trajectory_figures(run, run.unfiltered);
+  if (figures.filtered.ate_rmse_m && figures.unfiltered.ate_rmse_m)
+    figures.improvement_percent =
+        stillpoint::improvement_percent(*figures.unfiltered.ate_rmse_m, *figures.filtered.ate_rmse_m);
+  return figures;
+}
+
+}  // namespace stillpoint_run

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What is written down of a frame: one row a feature, and the frame as a whole.
+
+#include <opencv2/core/types.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "../backends/oracle_filter.hpp"
+#include "frame_source.hpp"
+#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/frame_result.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/evaluation/feature_score.hpp"
+#include "stillpoint/evaluation/trajectory.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/prior/mobility_table.hpp"
+
+namespace stillpoint_run {
+
+/// One feature and what was decided of it.
+struct FeatureRow {
+  stillpoint::Vector2f pixel;
+  stillpoint::Label label;
+  const char* reason;
+  float score;
+  double depth_m;
+  stillpoint::Mobility prior;
+};
+
+/// A frame as a whole.
+struct FrameSummary {
+  double timestamp_s = 0.0;
+  stillpoint::Status status = stillpoint::Status::ok;
+  stillpoint::Motion motion;
+  stillpoint::Timings timings;
+  double extract_ms = 0.0, track_ms = 0.0;
+  std::size_t features = 0, kept = 0, keep_floor_kept = 0;
+  stillpoint::DropCount moving, background;  ///< of this frame alone; empty where there are no labels
+};
+
+/// What the filter said of the current frame, refilled each time.
+struct FrameRecord {
+  FrameSummary summary;
+  std::vector<FeatureRow> rows;
+  std::vector<stillpoint::Vector2f> pixels;
+  std::vector<std::uint8_t> keep;
+};
+
+/// The frame's boxes as the prior takes them: with what is known of their classes.
+inline std::vector<stillpoint::Detection> detections_of(const SourceFrame& frame,
+                                                        const stillpoint::MobilityTable& mobility) {
+  std::vector<stillpoint::Detection> detections;
+  for (const stillpoint::DetectedBox& found : frame.boxes)
+    detections.push_back({found.box, mobility[found.class_name], found.confidence});
+  return detections;
+}
+
+namespace detail {
+
+inline stillpoint::Mobility mobility_of(const stillpoint::Membership& feature) {
+  if (feature.in_dynamic) return stillpoint::Mobility::dynamic;
+  if (feature.in_movable) return stillpoint::Mobility::movable;
+  return feature.in_fixed ? stillpoint::Mobility::fixed : stillpoint::Mobility::unknown;
+}
+
+/// The part that every filter's record has: pixels, flags, regions.
+inline void begin_record(const std::vector<cv::KeyPoint>& keypoints, stillpoint::span<const std::uint8_t> keep,
+                         const std::vector<stillpoint::Detection>& detections, FrameRecord& record) {
+  record.keep.assign(keep.begin(), keep.end());
+  record.pixels.clear();
+  for (const cv::KeyPoint& keypoint : keypoints) record.pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
+  stillpoint::Regions regions;
+  regions.detections = detections;
+  regions.locate(record.pixels);
+  record.rows.clear();
+  for (std::size_t i = 0; i < keypoints.size(); ++i)
+    record.rows.push_back(
+        {record.pixels[i], {}, "", stillpoint::FeatureScore{}.value, 0.0, mobility_of(regions.of_feature[i])});
+  record.summary.features = keypoints.size();
+  record.summary.kept = 0;
+  for (const std::uint8_t flag : keep) record.summary.kept += flag != 0 ? 1 : 0;
+}
+
+template <class Lookup>
+double depth_at(const stillpoint::FrameView& frame, const Lookup& lookup, const stillpoint::Vector2f& pixel) {
+  if (frame.depth.empty()) return 0.0;
+  return lookup.at(frame.depth, stillpoint::DepthScale(frame.image(), frame.depth.image)(pixel));
+}
+
+}  // namespace detail
+
+/// Writes down what `FrameFilter` decided. A frame that was not judged gets its depths looked up here.
+template <class Filter>
+void write_down(const stillpoint::FrameView& frame, const Filter& filter, const std::vector<cv::KeyPoint>& keypoints,
+                const stillpoint::FrameResult& result, const std::vector<stillpoint::Detection>& detections,
+                FrameRecord& record) {
+  detail::begin_record(keypoints, result.keep(), detections, record);
+  const bool judged = stillpoint::judged(result.status());
+  for (std::size_t i = 0; i < record.rows.size(); ++i) {
+    FeatureRow& row = record.rows[i];
+    row.label = result.verdict(i);
+    row.reason = to_string(row.label.reason);
+    row.score = result.score(i).value;
+    row.depth_m = judged ? result.depth_m(i) : detail::depth_at(frame, filter.depth_lookup, row.pixel);
+  }
+  FrameSummary& summary = record.summary;
+  summary.status = result.status();
+  summary.motion = result.motion();
+  summary.timings = result.timings();
+  summary.keep_floor_kept = result.keep_floor_kept();
+}
+
+/// Writes down what the oracle read in the labels: it has no score, no motion and no stages.
+inline void write_down(const stillpoint::FrameView& frame, const examples::OracleFilter&,
+                       const std::vector<cv::KeyPoint>& keypoints, const examples::OracleFilter::Result& result,
+                       const std::vector<stillpoint::Detection>& detections, FrameRecord& record) {
+  detail::begin_record(keypoints, result.keep(), detections, record);
+  for (std::size_t i = 0; i < record.rows.size(); ++i) {
+    FeatureRow& row = record.rows[i];
+    row.label.keep = record.keep[i] != 0;
+    row.label.verdict = row.label.keep ? stillpoint::Verdict::kept : stillpoint::Verdict::dynamic;
+    row.reason = "label";
+    row.depth_m = detail::depth_at(frame, stillpoint::RoundedDepth{}, row.pixel);
+  }
+  record.summary.status = stillpoint::Status::ok;
+}
+
+}  // namespace stillpoint_run

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where the frames come from: a folder, or the synthetic scene.
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "options.hpp"
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/evaluation/trajectory.hpp"
+#include "stillpoint/io/boxes_file.hpp"
+#include "stillpoint/io/camera_file.hpp"
+#include "stillpoint/io/tum_sequence.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/synthetic/renderer.hpp"
+#include "stillpoint/synthetic/scenes.hpp"
+
+namespace stillpoint_run {
+
+/// One frame and all that is known of it. Owns its images.
+struct SourceFrame {
+  double timestamp_s = 0.0;
+  cv::Mat gray, colour;  ///< CV_8UC1 and CV_8UC3
+  cv::Mat depth;         ///< CV_16UC1
+  double depth_factor = 5000.0;
+  cv::Mat labels;                              ///< CV_8UC1, values of PixelLabel; empty where there are none
+  std::vector<stillpoint::DetectedBox> boxes;  ///< empty unless the run's prior asks for them
+
+  stillpoint::FrameView view() const {
+    stillpoint::FrameView frame(gray, stillpoint::DepthView(depth, depth_factor), timestamp_s);
+    frame.colour = colour;
+    return frame;
+  }
+};
+
+/// A sequence of frames with a camera. One call a frame: virtual functions cost nothing here.
+class FrameSource {
+ public:
+  FrameSource() = default;
+  FrameSource(const FrameSource&) = delete;
+  FrameSource& operator=(const FrameSource&) = delete;
+  virtual ~FrameSource() = default;
+
+  virtual std::string name() const = 0;
+  virtual std::size_t size() const = 0;
+  virtual const stillpoint::Camera& camera() const = 0;
+  /// world_from_camera; empty where nobody knows.
+  virtual const std::optional<stillpoint::Trajectory>& ground_truth() const = 0;
+  virtual bool has_labels() const = 0;
+  /// @throws stillpoint::Error where a file of the frame can't be read.
+  virtual SourceFrame load(std::size_t index) = 0;
+};
+
+/// A folder in the layout of the TUM benchmark.
+class TumSource : public FrameSource {
+ public:
+  explicit TumSource(const Options& options)
+      : sequence_(options.tum,
+                  options.camera.empty() ? std::nullopt : std::optional(stillpoint::read_camera(options.camera))) {
+    if (options.prior == "boxes") boxes_ = stillpoint::read_boxes(options.tum / "boxes.txt");
+  }
+
+  std::string name() const override {
+    std::error_code ignored;
+    const auto folder = std::filesystem::absolute(sequence_.folder(), ignored).lexically_normal();
+    return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  }
+  std::size_t size() const override { return sequence_.frames().size(); }
+  const stillpoint::Camera& camera() const override { return sequence_.camera(); }
+  const std::optional<stillpoint::Trajectory>& ground_truth() const override { return sequence_.ground_truth(); }
+  bool has_labels() const override { return sequence_.has_labels(); }
+
+  SourceFrame load(std::size_t index) override {
+    stillpoint::RgbdImages images = sequence_.load(index);
+    SourceFrame frame;
+    frame.timestamp_s = sequence_.frames()[index].timestamp_s;
+    frame.colour = images.colour;
+    frame.depth = images.depth;
+    frame.depth_factor = sequence_.depth_factor();
+    cv::cvtColor(frame.colour, frame.gray, cv::COLOR_BGR2GRAY);
+    if (has_labels()) frame.labels = sequence_.load_labels(index);
+    if (const stillpoint::FrameBoxes* found = stillpoint::boxes_at(boxes_, frame.timestamp_s))
+      frame.boxes = found->boxes;
+    return frame;
+  }
+
+ private:
+  stillpoint::TumSequence sequence_;
+  std::vector<stillpoint::FrameBoxes> boxes_;
+};
+
+/// The synthetic scene of the library, with its exact truth.
+class DemoSource : public FrameSource {
+ public:
+  explicit DemoSource(const Options& options)
+      : sequence_(stillpoint::synthetic::demo()), wants_boxes_(options.prior == "boxes"), ground_truth_(true_path()) {}
+
+  std::string name() const override { return "demo"; }
+  std::size_t size() const override { return static_cast<std::size_t>(sequence_.size()); }
+  const stillpoint::Camera& camera() const override { return sequence_.camera(); }
+  const std::optional<stillpoint::Trajectory>& ground_truth() const override { return ground_truth_; }
+  bool has_labels() const override { return true; }
+
+  SourceFrame load(std::size_t index) override {
+    sequence_.render(static_cast<int>(index), rendered_);
+    SourceFrame frame;
+    frame.timestamp_s = rendered_.timestamp_s;
+    frame.gray = stillpoint::as_mat(rendered_.gray.view()).clone();
+    frame.colour = stillpoint::as_mat(rendered_.colour.view()).clone();
+    frame.depth = stillpoint::as_mat(rendered_.depth.view()).clone();
+    frame.depth_factor = rendered_.depth_factor;
+    frame.labels = stillpoint::as_mat(rendered_.labels.view()).clone();
+    if (wants_boxes_)
+      for (const stillpoint::synthetic::TruthBox& box : rendered_.boxes)
+        frame.boxes.push_back({box.class_name, 1.0f,
+                               stillpoint::Box{static_cast<float>(box.x), static_cast<float>(box.y),
+                                               static_cast<float>(box.width), static_cast<float>(box.height)}});
+    return frame;
+  }
+
+ private:
+  stillpoint::Trajectory true_path() const {
+    const stillpoint::synthetic::Scene& scene = sequence_.scene();
+    stillpoint::Trajectory path;
+    for (int i = 0; i < sequence_.size(); ++i)
+      path.push_back({scene.start_s + sequence_.time_of(i), scene.camera_path.world_from_camera(sequence_.time_of(i))});
+    return path;
+  }
+
+  stillpoint::SyntheticSequence sequence_;
+  stillpoint::SyntheticFrame rendered_;
+  bool wants_boxes_;
+  std::optional<stillpoint::Trajectory> ground_truth_;
+};
+
+/// Opens what the options name.
+/// @throws stillpoint::Error where it can't be read, or lacks what the options ask of it.
+inline std::unique_ptr<FrameSource> open_source(const Options& options) {
+  std::unique_ptr<FrameSource> source;
+  if (options.demo)
+    source = std::make_unique<DemoSource>(options);
+  else
+    source = std::make_unique<TumSource>(options);
+  if (static_cast<std::size_t>(options.start) >= source->size())
+    throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than " +
+                            std::to_string(source->size()) + ", the number of frames of " + source->name());
+  if (options.prior == "labels" && !source->has_labels())
+    throw stillpoint::Error("--prior: found labels, but " + source->name() +
+                            " has none; expected a folder with label images in labels/");
+  return source;
+}
+
+}  // namespace stillpoint_run

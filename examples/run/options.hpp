@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The command line of stillpoint_run.
+
+#include <CLI/CLI.hpp>
+
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/version.hpp"
+
+namespace stillpoint_run {
+
+/// What a run was asked for, as it was given; `parse_options` has checked each value.
+struct Options {
+  bool demo = false;
+  std::filesystem::path tum;
+  std::filesystem::path out = "stillpoint_out";
+  std::filesystem::path camera;  ///< empty: the sequence's own
+  std::string depth_noise = "kinect";
+  std::string policies = "paper";
+  std::string ego_motion = "default";
+  std::vector<std::string> as_printed;  ///< of eq3, eq8, unit-t
+  std::string prior = "none";
+  std::string backend = "odometry";
+  int features = 1000;
+  int start = 0;
+  int frames = std::numeric_limits<int>::max();
+  std::uint64_t seed = stillpoint::Random::kDefaultSeed;
+  int threads = 1;
+  bool quiet = false;
+
+  bool prints_error(std::string_view name) const {
+    for (const std::string& printed : as_printed)
+      if (printed == name) return true;
+    return false;
+  }
+};
+
+/// Thrown where the program has answered the command line already: --help, --version.
+struct NothingToRun {};
+
+namespace detail {
+
+/// One of a few words; `list` names them.
+inline CLI::Validator one_of(std::vector<std::string> words, const std::string& list) {
+  return CLI::Validator(
+      [words = std::move(words), list](std::string& value) {
+        for (const std::string& word : words)
+          if (word == value) return std::string();
+        return "found '" + value + "', expected " + (words.size() > 1 ? "one of " : "") + list;
+      },
+      "");
+}
+
+/// An option that takes one of a few words.
+inline CLI::Option* add_choice(CLI::App& app, const char* name, std::string& value, std::vector<std::string> words,
+                               const char* help) {
+  std::string types, list;
+  for (const std::string& word : words) {
+    types += (types.empty() ? "" : "|") + word;
+    list += (list.empty() ? "" : ", ") + word;
+  }
+  return app.add_option(name, value, help)->type_name(types)->check(one_of(std::move(words), list));
+}
+
+/// A whole number in a range, with nothing behind it.
+template <class Integer>
+CLI::Validator whole_number(Integer least, Integer most) {
+  return CLI::Validator(
+      [least, most](std::string& text) {
+        Integer value{};
+        const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_number = result.ec == std::errc() && result.ptr == text.data() + text.size();
+        if (is_number && value >= least && value <= most) return std::string();
+        return "found '" + text + "', expected a whole number from " + std::to_string(least) + " to " +
+               std::to_string(most);
+      },
+      "");
+}
+
+inline CLI::Validator not_empty() {
+  return CLI::Validator(
+      [](std::string& text) { return text.empty() ? std::string("found nothing, expected a path") : std::string(); },
+      "");
+}
+
+/// What no single option can know.
+inline void require_consistent(const CLI::App& app, const Options& options) {
+  const auto given = [&app](const char* name) { return app.count(name) > 0; };
+  if (options.demo == given("--tum"))
+    throw stillpoint::Error(options.demo ? "found --demo and --tum, expected one of them"
+                                         : "found no sequence, expected --demo or --tum FOLDER");
+  if (options.demo && given("--camera"))
+    throw stillpoint::Error("--camera: found with --demo, whose camera is known; expected it with --tum");
+  if (options.ego_motion == "rigid")
+    for (const char* name : {"eq3", "unit-t"})
+      if (options.prints_error(name))
+        throw stillpoint::Error("--paper-as-printed: found " + std::string(name) +
+                                " with --ego-motion rigid, expected --ego-motion epipolar, whose printed error it is");
+  if (options.prior == "labels")
+    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise"})
+      if (given(name))
+        throw stillpoint::Error(std::string(name) +
+                                ": found with --prior labels, which looks the answer up and filters nothing; expected "
+                                "--prior none or boxes");
+}
+
+}  // namespace detail
+
+/// Reads the command line.
+/// @throws stillpoint::Error  one line: which argument, what was found, what was expected.
+/// @throws NothingToRun       after --help and --version, which print to standard output.
+inline Options parse_options(int argument_count, const char* const* arguments) {
+  Options options;
+  CLI::App app("Runs the stillpoint filter over a sequence and reports what it did.", "stillpoint_run");
+  app.option_defaults()->always_capture_default();
+  app.set_version_flag("--version", STILLPOINT_VERSION);
+  const int most = std::numeric_limits<int>::max();
+
+  const auto add_path = [&app](const char* name, const char* type, std::filesystem::path& path, const char* help) {
+    return app.add_option(name, path, help)->type_name(type)->check(detail::not_empty());
+  };
+  const auto add_number = [&app](const char* name, auto& number, auto least, auto greatest, const char* help) {
+    return app.add_option(name, number, help)->type_name("N")->check(detail::whole_number(least, greatest));
+  };
+  app.add_flag("--demo", options.demo, "a synthetic scene, rendered in memory");
+  add_path("--tum", "FOLDER", options.tum, "a sequence in the layout of the TUM RGB-D benchmark")->default_str("");
+  add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
+  add_path("--camera", "FILE", options.camera, "the camera, where the folder has no camera.yaml or another is wanted")
+      ->default_str("");
+  detail::add_choice(app, "--depth-noise", options.depth_noise, {"kinect", "stereo", "tof"}, "how wrong the depth is");
+  detail::add_choice(app, "--policies", options.policies, {"paper"}, "which set of stages");
+  detail::add_choice(app, "--ego-motion", options.ego_motion, {"default", "rigid", "epipolar"},
+                     "how the camera's motion is found; default is what the policies take, paper: epipolar");
+  app.add_option("--paper-as-printed", options.as_printed, "printed errors of the paper to repeat, commas between")
+      ->delimiter(',')
+      ->type_name("eq3,eq8,unit-t")
+      ->check(detail::one_of({"eq3", "eq8", "unit-t"}, "eq3, eq8, unit-t"))
+      ->default_str("");
+  const CLI::Option* prior = detail::add_choice(
+      app, "--prior", options.prior, {"none", "boxes", "labels"},
+      "where something may move; labels is an oracle that drops what the labels call a mover, a yardstick. The demo of "
+      "the paper's method takes boxes unless told otherwise");
+  detail::add_choice(app, "--backend", options.backend, {"odometry", "none"}, "the tracker behind the filter");
+  add_number("--features", options.features, 1, 100000, "ORB features a frame");
+  add_number("--start", options.start, 0, most, "first frame, counted from 0");
+  add_number("--frames", options.frames, 1, most, "frames at most")->default_str("all");
+  add_number("--seed", options.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
+             "of the filter's and the tracker's random numbers");
+  add_number("--threads", options.threads, 1, 1024, "that OpenCV may use; results do not depend on it");
+  app.add_flag("--quiet", options.quiet, "no progress on standard error");
+
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::Success& answered) {
+    app.exit(answered);
+    throw NothingToRun{};
+  } catch (const CLI::ParseError& error) {
+    const std::string message = error.what();
+    throw stillpoint::Error(message.substr(0, message.find('\n')) + " (stillpoint_run --help lists the arguments)");
+  }
+  detail::require_consistent(app, options);
+  // The paper tests features in boxes only: without them its demo would have nothing to show.
+  if (options.demo && options.policies == "paper" && prior->empty()) options.prior = "boxes";
+  return options;
+}
+
+/// Name and value of each setting of a run, for the report.
+inline std::vector<std::pair<std::string, std::string>> settings(const Options& options) {
+  std::string printed;
+  for (const std::string& name : options.as_printed) printed += (printed.empty() ? "" : ",") + name;
+  const bool all_frames = options.frames == std::numeric_limits<int>::max();
+  return {{"sequence", options.demo ? "--demo" : "--tum " + options.tum.string()},
+          {"--camera", options.camera.empty() ? "the sequence's own" : options.camera.string()},
+          {"--depth-noise", options.depth_noise},
+          {"--policies", options.policies},
+          {"--ego-motion", options.ego_motion},
+          {"--paper-as-printed", printed.empty() ? "nothing" : printed},
+          {"--prior", options.prior},
+          {"--backend", options.backend},
+          {"--features", std::to_string(options.features)},
+          {"--start", std::to_string(options.start)},
+          {"--frames", all_frames ? "all" : std::to_string(options.frames)},
+          {"--seed", std::to_string(options.seed)},
+          {"--threads", std::to_string(options.threads)}};
+}
+
+}  // namespace stillpoint_run

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Frames with the filter's verdicts drawn on them: a dozen over the run, for the report.
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frame_record.hpp"
+#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/match/lucas_kanade.hpp"
+#include "words.hpp"
+
+namespace stillpoint_run {
+
+/// A drawn frame.
+struct Overlay {
+  std::vector<std::uint8_t> jpeg;
+  std::string caption;
+};
+
+/// How far each feature is from where it would be if it stood still, in the image. For the drawing alone: the filter's
+/// own matches are not public, so that this looks for the features again.
+class ImageOffsets {
+ public:
+  /// Frames are kept for as long as a motion may refer back to them.
+  void remember(SourceFrame frame) {
+    constexpr std::size_t kLongestHistory = 16;
+    history_.push_back(std::move(frame));
+    if (history_.size() > kLongestHistory) history_.pop_front();
+  }
+
+  /// Pixels; NaN where a feature has no match, no depth, or the frame no motion.
+  std::vector<stillpoint::Vector2f> of(const SourceFrame& frame, const FrameRecord& record,
+                                       const stillpoint::Camera& camera) const {
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    std::vector<stillpoint::Vector2f> offsets(record.pixels.size(), {kNaN, kNaN});
+    const stillpoint::Motion& motion = record.summary.motion;
+    const auto reference = std::find_if(history_.begin(), history_.end(), [&motion](const SourceFrame& past) {
+      return past.timestamp_s == motion.reference_timestamp_s;
+    });
+    if (!motion.usable() || reference == history_.end()) return offsets;
+
+    stillpoint::Matches matches;
+    matches.begin(record.pixels);
+    stillpoint::LucasKanade().match(reference->view(), frame.view(), matches);
+    stillpoint::lift(reference->view(), stillpoint::RoundedDepth{}, camera, stillpoint::KinectNoise{},
+                     matches.reference);
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+      if (!matches.matched(i) || !matches.reference.has_depth(i)) continue;
+      const stillpoint::Vector3d standing = motion.current_from_reference * matches.reference.point[i];
+      if (!(standing.z() > 0)) continue;
+      offsets[i] = record.pixels[i] - camera.distort(camera.project(standing)).cast<float>();
+    }
+    return offsets;
+  }
+
+ private:
+  std::deque<SourceFrame> history_;
+};
+
+namespace detail {
+
+// Green, vermilion and grey that the colour-blind tell apart (Okabe and Ito, 2008); B, G, R.
+inline const cv::Scalar kKeptColour(115, 200, 60), kDynamicColour(40, 85, 240), kUnknownColour(205, 205, 205),
+    kBoxColour(66, 228, 240), kInk(20, 20, 20);
+
+/// A shape for each verdict, too: circle, cross, square. A dropped `unknown` is a square with a bar through it.
+inline void draw_feature(cv::Mat& image, const FeatureRow& row, const stillpoint::Vector2f& offset_px) {
+  constexpr float kMagnified = 3.0f, kVisible_px = 1.0f, kLongest_px = 40.0f;
+  const cv::Point2f at(row.pixel.x(), row.pixel.y());
+  const auto stroke = [&image](const cv::Point2f& a, const cv::Point2f& b, const cv::Scalar& colour, int width) {
+    cv::line(image, a, b, colour, width, cv::LINE_AA);
+  };
+  const bool is_dynamic = row.label.verdict == stillpoint::Verdict::dynamic;
+  const cv::Scalar colour = is_dynamic                                          ? kDynamicColour
+                            : row.label.verdict == stillpoint::Verdict::unknown ? kUnknownColour
+                                                                                : kKeptColour;
+  const float length_px = offset_px.norm();
+  if (length_px >= kVisible_px && length_px <= kLongest_px)
+    stroke(at, at - kMagnified * cv::Point2f(offset_px.x(), offset_px.y()), colour, 1);
+  if (is_dynamic) {
+    for (const auto& [ink, width] : {std::pair(kInk, 2), std::pair(colour, 1)}) {
+      stroke(at - cv::Point2f(4, 4), at + cv::Point2f(4, 4), ink, width);
+      stroke(at - cv::Point2f(4, -4), at + cv::Point2f(4, -4), ink, width);
+    }
+  } else if (row.label.verdict == stillpoint::Verdict::unknown) {
+    cv::rectangle(image, at - cv::Point2f(3, 3), at + cv::Point2f(3, 3), colour, 1);
+    if (!row.label.keep) stroke(at - cv::Point2f(5, 0), at + cv::Point2f(5, 0), colour, 1);
+  } else {
+    cv::circle(image, at, 3, colour, 1, cv::LINE_AA);
+  }
+}
+
+inline void draw_text(cv::Mat& image, const std::string& text, const cv::Point& at) {
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, kInk, 4, cv::LINE_AA);
+  cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(255), 1, cv::LINE_AA);
+}
+
+}  // namespace detail
+
+/// Draws the boxes of the prior (those of moving classes thicker), each feature by its verdict, its offset three times
+/// as long as it is, and the frame's status.
+inline cv::Mat draw_overlay(const SourceFrame& frame, const std::vector<stillpoint::Detection>& detections,
+                            const FrameRecord& record, const std::vector<stillpoint::Vector2f>& offsets_px) {
+  cv::Mat image = frame.colour.clone();
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    const stillpoint::Box& found = detections[i].box;
+    const cv::Rect2f box(found.x, found.y, found.width, found.height);
+    cv::rectangle(image, box, detail::kBoxColour, detections[i].mobility == stillpoint::Mobility::dynamic ? 2 : 1);
+    detail::draw_text(image, frame.boxes[i].class_name + ": " + to_string(detections[i].mobility),
+                      cv::Point(box.tl()) + cv::Point(5, 17));
+  }
+  for (std::size_t i = 0; i < record.rows.size(); ++i) detail::draw_feature(image, record.rows[i], offsets_px[i]);
+  const FrameSummary& summary = record.summary;
+  detail::draw_text(image,
+                    stillpoint::format_fixed(summary.timestamp_s, 3) + " s  " + to_string(summary.status) + "  kept " +
+                        std::to_string(summary.kept) + " of " + std::to_string(summary.features),
+                    {8, image.rows - 10});
+  return image;
+}
+
+/// Chooses a dozen frames, evenly over the run and the last among them, and keeps them drawn.
+class Gallery {
+ public:
+  explicit Gallery(std::size_t frame_count) : frame_count_(frame_count) {}
+
+  /// Call it for each frame, in their order.
+  /// @param detections  of the frame's boxes, in their order.
+  void show(const SourceFrame& frame, const std::vector<stillpoint::Detection>& detections, const FrameRecord& record,
+            const stillpoint::Camera& camera) {
+    constexpr int kJpegQuality = 82;
+    if (is_chosen(next_++)) {
+      Overlay overlay;
+      cv::imencode(".jpg", draw_overlay(frame, detections, record, offsets_.of(frame, record, camera)), overlay.jpeg,
+                   {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
+      const FrameSummary& summary = record.summary;
+      overlay.caption = "Frame " + std::to_string(next_) + ", " + stillpoint::format_fixed(summary.timestamp_s, 3) +
+                        " s, " + to_string(summary.status) + ": kept " + std::to_string(summary.kept) + " of " +
+                        count_words(summary.features, "feature");
+      overlays_.push_back(std::move(overlay));
+    }
+    offsets_.remember(frame);
+  }
+
+  const std::vector<Overlay>& overlays() const { return overlays_; }
+
+ private:
+  /// The last frame of each twelfth of the run.
+  bool is_chosen(std::size_t frame) const {
+    constexpr std::size_t kPictures = 12;
+    return (frame + 1) * kPictures / frame_count_ > frame * kPictures / frame_count_;
+  }
+
+  std::size_t frame_count_, next_ = 0;
+  ImageOffsets offsets_;
+  std::vector<Overlay> overlays_;
+};
+
+}  // namespace stillpoint_run

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// report.json: the figures of a run, for programs. A figure that can't be had is null.
+
+#include <nlohmann/json.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "figures.hpp"
+#include "options.hpp"
+#include "stillpoint/version.hpp"
+
+namespace stillpoint_run {
+
+namespace detail {
+
+template <class Value>
+nlohmann::ordered_json or_null(const std::optional<Value>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+inline nlohmann::ordered_json relative_error_json(const RelativeError& filtered, const RelativeError& unfiltered) {
+  return {{"translation_rmse_m", or_null(filtered.translation_m)},
+          {"rotation_rmse_deg", or_null(filtered.rotation_deg)},
+          {"translation_rmse_unfiltered_m", or_null(unfiltered.translation_m)},
+          {"rotation_rmse_unfiltered_deg", or_null(unfiltered.rotation_deg)}};
+}
+
+inline nlohmann::ordered_json labels_json(const RunRecord& run) {
+  const stillpoint::FilterScore& score = run.labels;
+  const auto count = [&run](std::size_t features) { return run.has_labels ? std::optional(features) : std::nullopt; };
+  return {{"recall", or_null(score.recall())},
+          {"false_alarms", or_null(score.false_alarms())},
+          {"moving", or_null(count(score.moving().features))},
+          {"background", or_null(count(score.background().features))},
+          {"parked_dropped", or_null(score.parked_dropped())}};
+}
+
+}  // namespace detail
+
+/// @return text with a line's end. Key by key: shares from 0 to 1, units in the keys' names, labels' `moving` and
+///         `background` the number of features that the shares are of.
+inline std::string report_json(const Options& options, const RunRecord& run, const Figures& figures) {
+  nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
+  for (const auto& [status, frames] : figures.statuses) statuses[status] = frames;
+  nlohmann::ordered_json times = nlohmann::ordered_json::object();
+  for (const StageTime& stage : figures.times) {
+    const auto value = [&stage](double Spread::*member) {
+      return detail::or_null(stage.ms ? std::optional((*stage.ms).*member) : std::nullopt);
+    };
+    times[stage.name] = {
+        {"median", value(&Spread::median)}, {"p95", value(&Spread::p95)}, {"max", value(&Spread::max)}};
+  }
+  const nlohmann::ordered_json report = {
+      {"version", STILLPOINT_VERSION},
+      {"sequence", run.sequence},
+      {"policies", options.policies},
+      {"prior", options.prior},
+      {"frames", run.frames.size()},
+      {"features_per_frame", detail::or_null(figures.features_per_frame)},
+      {"kept_share", detail::or_null(figures.kept_share)},
+      {"statuses", statuses},
+      {"timing_ms", times},
+      {"ate_rmse_m", detail::or_null(figures.filtered.ate_rmse_m)},
+      {"ate_rmse_unfiltered_m", detail::or_null(figures.unfiltered.ate_rmse_m)},
+      {"frames_without_pose", detail::or_null(figures.filtered.frames_without_pose)},
+      {"improvement_percent", detail::or_null(figures.improvement_percent)},
+      {"rpe",
+       {{"frame", detail::relative_error_json(figures.filtered.rpe_frame, figures.unfiltered.rpe_frame)},
+        {"second", detail::relative_error_json(figures.filtered.rpe_second, figures.unfiltered.rpe_second)}}},
+      {"labels", detail::labels_json(run)}};
+  return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
+         '\n';  // folder names may be any bytes
+}
+
+}  // namespace stillpoint_run

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The tables of the report: numbers with their units.
+
+#include <cstddef>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "figures.hpp"
+#include "html.hpp"
+#include "options.hpp"
+#include "words.hpp"
+
+namespace stillpoint_run {
+
+/// A table whose first column names the row; the others are numbers, or text.
+class Table {
+ public:
+  Table(const char* caption, std::initializer_list<const char*> heads, bool holds_numbers = true)
+      : cell_(holds_numbers ? "<td class=\"n\">" : "<td>") {
+    html_ = "<div class=\"scroll\"><table><caption>" + escaped(caption) + "</caption><thead><tr>";
+    bool is_first = true;
+    for (const char* head : heads) {
+      html_ += std::string(is_first || !holds_numbers ? "<th scope=\"col\">" : "<th scope=\"col\" class=\"n\">") +
+               escaped(head) + "</th>";
+      is_first = false;
+    }
+    html_ += "</tr></thead><tbody>";
+  }
+
+  Table& row(const std::string& name, std::initializer_list<std::string> cells) {
+    html_ += "<tr><th scope=\"row\">" + escaped(name) + "</th>";
+    for (const std::string& cell : cells) html_ += cell_ + escaped(cell) + "</td>";
+    html_ += "</tr>";
+    return *this;
+  }
+
+  std::string html() const { return html_ + "</tbody></table></div>\n"; }
+
+ private:
+  std::string html_;
+  std::string cell_;
+};
+
+namespace detail {
+
+inline std::string fixed_or_none(const std::optional<double>& value, int decimals, double factor = 1.0) {
+  return value ? stillpoint::format_fixed(factor * *value, decimals) : "n/a";
+}
+
+inline std::string count_or_none(const std::optional<std::size_t>& value) {
+  return value ? std::to_string(*value) : "n/a";
+}
+
+inline std::string trajectory_table(const Figures& figures) {
+  Table table("Trajectory", {"", "with the filter", "without"});
+  const auto row = [&](const char* name, int decimals, double factor, auto&& read) {
+    table.row(name, {fixed_or_none(read(figures.filtered), decimals, factor),
+                     fixed_or_none(read(figures.unfiltered), decimals, factor)});
+  };
+  row("ATE, RMSE, cm", 2, 100, [](const TrajectoryFigures& t) { return t.ate_rmse_m; });
+  row("RPE over a frame, RMSE, mm", 2, 1000, [](const TrajectoryFigures& t) { return t.rpe_frame.translation_m; });
+  row("RPE over a frame, RMSE, degrees", 3, 1, [](const TrajectoryFigures& t) { return t.rpe_frame.rotation_deg; });
+  row("RPE over a second, RMSE, cm", 2, 100, [](const TrajectoryFigures& t) { return t.rpe_second.translation_m; });
+  row("RPE over a second, RMSE, degrees", 3, 1, [](const TrajectoryFigures& t) { return t.rpe_second.rotation_deg; });
+  table.row("frames without a pose", {count_or_none(figures.filtered.frames_without_pose),
+                                      count_or_none(figures.unfiltered.frames_without_pose)});
+  table.row("improvement of the ATE, %", {fixed_or_none(figures.improvement_percent, 1), ""});
+  return table.html();
+}
+
+inline std::string label_table(const RunRecord& run) {
+  const stillpoint::FilterScore& score = run.labels;
+  Table table("Features by label, all frames after the first", {"", "features", "dropped", "share, %"});
+  const auto row = [&table](const char* name, const stillpoint::DropCount& count) {
+    table.row(name,
+              {std::to_string(count.features), std::to_string(count.dropped), fixed_or_none(count.share(), 1, 100)});
+  };
+  row("on what moves (recall)", score.moving());
+  row("on the background (false alarms)", score.background());
+  row("on movers at rest", score.parked());
+  return table.html();
+}
+
+inline std::string time_table(const Figures& figures) {
+  Table table("Time a frame, ms", {"", "median", "95 % below", "maximum"});
+  for (const StageTime& stage : figures.times) {
+    const auto value = [&stage](double Spread::*member) {
+      return stage.ms ? stillpoint::format_fixed((*stage.ms).*member, 3) : std::string("n/a");
+    };
+    const std::string name = stage.name == "filter"    ? "filter, all of the above"
+                             : stage.name == "extract" ? "beside it: ORB features"
+                             : stage.name == "track"   ? "beside it: tracking"
+                                                       : stage.name;
+    table.row(name, {value(&Spread::median), value(&Spread::p95), value(&Spread::max)});
+  }
+  return table.html();
+}
+
+inline std::string status_table(const Figures& figures) {
+  Table table("Status of the frames", {"status", "frames"});
+  for (const auto& [status, frames] : figures.statuses) table.row(status, {std::to_string(frames)});
+  return table.html();
+}
+
+inline std::string settings_table(const Options& options) {
+  Table table("Settings of this run", {"option", "value"}, false);
+  for (const auto& [name, value] : settings(options)) table.row(name, {value});
+  return table.html();
+}
+
+}  // namespace detail
+
+/// All tables, those without content left out.
+inline std::string report_tables(const Options& options, const RunRecord& run, const Figures& figures) {
+  std::string html;
+  if (run.has_backend) html += detail::trajectory_table(figures);
+  if (run.has_labels) html += detail::label_table(run);
+  return html + detail::time_table(figures) + detail::status_table(figures) + detail::settings_table(options);
+}
+
+}  // namespace stillpoint_run

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The run itself: each frame through the filtered tracker and, beside it, through the unfiltered one.
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "backends.hpp"
+#include "csv_files.hpp"
+#include "figures.hpp"
+#include "filters.hpp"
+#include "frame_record.hpp"
+#include "frame_source.hpp"
+#include "options.hpp"
+#include "overlay.hpp"
+#include "progress.hpp"
+#include "stillpoint/adapters/filtered_tracker.hpp"
+#include "stillpoint/adapters/null_filter.hpp"
+
+namespace stillpoint_run {
+
+namespace detail {
+
+/// Counts a frame's labels: all in all, and for this frame alone.
+inline void count_labels(const SourceFrame& frame, FrameRecord& record, stillpoint::FilterScore& score) {
+  const auto since = [](const stillpoint::DropCount& now, const stillpoint::DropCount& before) {
+    return stillpoint::DropCount{now.features - before.features, now.dropped - before.dropped};
+  };
+  const stillpoint::DropCount moving = score.moving(), background = score.background();
+  score.add_frame(frame.labels, record.pixels, record.keep);
+  record.summary.moving = since(score.moving(), moving);
+  record.summary.background = since(score.background(), background);
+}
+
+inline void append_pose(const std::optional<stillpoint::Pose>& pose, double timestamp_s,
+                        stillpoint::Trajectory& trajectory) {
+  if (pose) trajectory.push_back({timestamp_s, *pose});
+}
+
+/// Poses as the files have them: the camera of the run's first frame is the world, if that frame has a pose.
+inline void begin_at_identity(stillpoint::Trajectory& trajectory) {
+  if (trajectory.empty()) return;
+  const stillpoint::Pose first_from_world = trajectory.front().world_from_camera.inverse();
+  for (stillpoint::StampedPose& pose : trajectory)
+    pose.world_from_camera = stillpoint::orthonormalized(first_from_world * pose.world_from_camera);
+}
+
+}  // namespace detail
+
+/// Where the rows go while the run goes on.
+struct RunOutput {
+  FeaturesFile& features;
+  FramesFile& frames;
+  Gallery& gallery;
+};
+
+/// How many frames the options ask for.
+inline std::size_t frame_count(const Options& options, const FrameSource& source) {
+  return std::min(source.size() - static_cast<std::size_t>(options.start), static_cast<std::size_t>(options.frames));
+}
+
+/// Runs the frames that the options ask for.
+/// @throws stillpoint::Error where a frame can't be read or a row not written.
+template <class Filter, class Backend>
+RunRecord run_frames(const Options& options, FrameSource& source, Filter a_filter, Backend behind_filter,
+                     Backend unfiltered_backend, const RunOutput& output) {
+  stillpoint::FilteredTracker filtered(std::move(a_filter), std::move(behind_filter));
+  stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));
+  const stillpoint::MobilityTable mobility;
+  const std::size_t count = frame_count(options, source), first = static_cast<std::size_t>(options.start);
+  Progress progress(count, options.quiet);
+
+  RunRecord run;
+  run.sequence = source.name();
+  run.ground_truth = source.ground_truth();
+  run.has_backend = options.backend != "none";
+  run.has_labels = source.has_labels();
+  run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
+  FrameRecord record;
+  for (std::size_t i = first; i < first + count; ++i) {
+    const SourceFrame frame = source.load(i);
+    const stillpoint::FrameView view = frame.view();
+    const std::vector<stillpoint::Detection> detections = detections_of(frame, mobility);
+    prepare(filtered.filter, frame, detections);
+    record.summary = FrameSummary{};
+    record.summary.timestamp_s = frame.timestamp_s;
+    const auto pose = filtered.track(view, [&](const std::vector<cv::KeyPoint>& keypoints, const auto& result) {
+      write_down(view, filtered.filter, keypoints, result, detections, record);
+    });
+    record.summary.extract_ms = filtered.backend.extract_ms;
+    record.summary.track_ms = filtered.backend.track_ms;
+    detail::append_pose(pose, frame.timestamp_s, run.filtered);
+    if (run.has_backend) detail::append_pose(unfiltered.track(view), frame.timestamp_s, run.unfiltered);
+    if (run.has_labels) detail::count_labels(frame, record, run.labels);
+
+    output.features.write(record);
+    output.frames.write(record.summary);
+    output.gallery.show(frame, detections, record, source.camera());
+    run.frames.push_back(record.summary);
+    progress.frame_done();
+  }
+  detail::begin_at_identity(run.filtered);
+  detail::begin_at_identity(run.unfiltered);
+  return run;
+}
+
+}  // namespace stillpoint_run

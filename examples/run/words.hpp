@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a run found, in plain words: for standard output and the top of the report.
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "figures.hpp"
+#include "options.hpp"
+#include "stillpoint/io/number_format.hpp"
+
+namespace stillpoint_run {
+
+/// "3.1 cm", "0.8 mm", "1.25 m".
+inline std::string length_words(double metres) {
+  if (metres < 0.00995) return stillpoint::format_fixed(metres * 1000, 1) + " mm";
+  if (metres < 0.995) return stillpoint::format_fixed(metres * 100, metres < 0.0995 ? 1 : 0) + " cm";
+  return stillpoint::format_fixed(metres, 2) + " m";
+}
+
+/// "21 %", "3.4 %".
+inline std::string percent_words(double share) {
+  const double percent = 100 * share;
+  return stillpoint::format_fixed(percent, percent > 0 && std::abs(percent) < 9.95 ? 1 : 0) + " %";
+}
+
+inline std::string count_words(std::size_t count, const char* noun) {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
+namespace detail {
+
+inline std::string trajectory_words(const RunRecord& run, const Figures& figures) {
+  if (!run.has_backend) return "No tracker ran behind the filter, so that there is no trajectory.";
+  const auto &with = figures.filtered.ate_rmse_m, &without = figures.unfiltered.ate_rmse_m;
+  if (with && without)
+    return "With the filter the trajectory is off by " + length_words(*with) + ", without it by " +
+           length_words(*without) + ".";
+  if (with) return "With the filter the trajectory is off by " + length_words(*with) + ".";
+  if (without) return "Without the filter the trajectory is off by " + length_words(*without) + ".";
+  return run.ground_truth ? "There are too few poses to compare the trajectories with the reference."
+                          : "There is no reference, so that nobody knows how far the trajectory is off.";
+}
+
+inline std::string label_words(const RunRecord& run) {
+  const auto recall = run.labels.recall(), false_alarms = run.labels.false_alarms();
+  if (!recall && !false_alarms) return "";
+  std::string words;
+  if (recall) words += "Of the features on things that moved it dropped " + percent_words(*recall);
+  if (false_alarms)
+    words += (recall ? ", of those on the background " : "Of the features on the background it dropped ") +
+             percent_words(*false_alarms);
+  return words + '.';
+}
+
+inline std::size_t unjudged_frames(const RunRecord& run) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    count += i > 0 && !stillpoint::judged(run.frames[i].status) ? 1 : 0;
+  return count;
+}
+
+}  // namespace detail
+
+/// One sentence a fact, the most important first.
+inline std::vector<std::string> sentences(const Options& options, const RunRecord& run, const Figures& figures) {
+  std::vector<std::string> result;
+  const std::size_t dropped = figures.features - figures.kept;
+  const bool is_oracle = options.prior == "labels";
+  std::string first =
+      (is_oracle ? "Looked up " : "Filtered ") + count_words(run.frames.size(), "frame") + " of " + run.sequence + "; ";
+  if (figures.features == 0)
+    first += "no feature was found in them.";
+  else
+    first += dropped == 0 ? "no feature was dropped."
+                          : percent_words(static_cast<double>(dropped) / static_cast<double>(figures.features)) +
+                                " of the features were dropped" +
+                                (is_oracle ? ", as the labels say." : " as moving or not to be trusted.");
+  result.push_back(first);
+  result.push_back(detail::trajectory_words(run, figures));
+  const std::string labels = detail::label_words(run);
+  if (!labels.empty()) result.push_back(labels);
+  if (options.policies == "paper" && options.prior == "none")
+    result.push_back(
+        "The paper's method tests features inside boxes of moving classes only: without --prior boxes it drops "
+        "nothing.");
+  if (const std::size_t unjudged = detail::unjudged_frames(run); unjudged > 0)
+    result.push_back(count_words(unjudged, "frame") + " after the first could not be judged, and all features of " +
+                     (unjudged == 1 ? "it" : "them") + " were kept.");
+  if (figures.filtered.frames_without_pose.value_or(0) > 0)
+    result.push_back(count_words(*figures.filtered.frames_without_pose, "frame") + " got no pose with the filter, " +
+                     std::to_string(figures.unfiltered.frames_without_pose.value_or(0)) + " without it.");
+  return result;
+}
+
+}  // namespace stillpoint_run
