@@ -15,6 +15,16 @@
 
 namespace stillpoint {
 
+namespace detail {
+
+/// `std::void_t` as a class: clang takes two specialisations over the alias for one and the same (CWG 1980).
+template <class...>
+struct void_if_valid {
+  using type = void;
+};
+
+}  // namespace detail
+
 /// How an array is compacted. Anything with `size()`, `operator[]` and `resize()` is; row matrices (one row a feature:
 /// `cv::Mat`, Eigen) are recognised by their members.
 template <class Array, class = void>
@@ -26,7 +36,8 @@ struct compaction_traits {
 
 /// An Eigen matrix, one row a feature.
 template <class Matrix>
-struct compaction_traits<Matrix, std::void_t<decltype(std::declval<Matrix&>().conservativeResize(1, 1))>> {
+struct compaction_traits<
+    Matrix, typename detail::void_if_valid<decltype(std::declval<Matrix&>().conservativeResize(1, 1))>::type> {
   using Index = decltype(std::declval<const Matrix&>().rows());
   static std::size_t size(const Matrix& m) { return static_cast<std::size_t>(m.rows()); }
   static void move(Matrix& m, std::size_t from, std::size_t to) {
@@ -38,9 +49,9 @@ struct compaction_traits<Matrix, std::void_t<decltype(std::declval<Matrix&>().co
 /// A row matrix in the manner of `cv::Mat`: `rows`, `rowRange`, `row(i).copyTo`. The header is narrowed to the kept
 /// rows: its memory is not given back, and other headers that share it see its rows moved.
 template <class Matrix>
-struct compaction_traits<Matrix,
-                         std::void_t<decltype(std::declval<Matrix&>().rowRange(0, 0)),
-                                     decltype(std::declval<Matrix&>().row(0).copyTo(std::declval<Matrix&>()))>> {
+struct compaction_traits<Matrix, typename detail::void_if_valid<decltype(std::declval<Matrix&>().rowRange(0, 0)),
+                                                                decltype(std::declval<Matrix&>().row(0).copyTo(
+                                                                    std::declval<Matrix&>()))>::type> {
   static std::size_t size(const Matrix& m) { return static_cast<std::size_t>(m.rows); }
   static void move(Matrix& m, std::size_t from, std::size_t to) {
     auto target = m.row(static_cast<int>(to));
