@@ -34,7 +34,7 @@ class LucasKanade {
   Options options;
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
-    if (!(reference_time_s_ == reference.timestamp_s)) build_pyramid(reference, reference_pyramid_);
+    if (!remembers(reference)) build_pyramid(reference, reference_pyramid_);
     build_pyramid(current, current_pyramid_);
     gather(current, matches);
     if (!from_.empty()) {
@@ -44,12 +44,20 @@ class LucasKanade {
     }
     std::swap(reference_pyramid_, current_pyramid_);
     reference_time_s_ = current.timestamp_s;
+    reference_window_px_ = options.window_px;
+    reference_levels_ = options.pyramid_levels;
   }
 
   void reset() noexcept { reference_time_s_ = std::numeric_limits<double>::quiet_NaN(); }
 
  private:
   using Pyramid = std::vector<cv::Mat>;
+
+  /// The last frame's pyramid is the reference's, made with the options of now.
+  bool remembers(const FrameView& reference) const noexcept {
+    return reference_time_s_ == reference.timestamp_s && reference_window_px_ == options.window_px &&
+           reference_levels_ == options.pyramid_levels;
+  }
 
   cv::Size window() const { return {options.window_px, options.window_px}; }
 
@@ -99,6 +107,8 @@ class LucasKanade {
 
   Pyramid reference_pyramid_, current_pyramid_;
   double reference_time_s_ = std::numeric_limits<double>::quiet_NaN();
+  int reference_window_px_ = 0;
+  int reference_levels_ = 0;
   std::vector<std::size_t> feature_;
   std::vector<cv::Point2f> from_, to_, back_;
   std::vector<unsigned char> found_, found_back_;
