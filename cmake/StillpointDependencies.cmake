@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# What the library itself needs. Whatever is missing is named with its Debian package; nothing is downloaded.
+
+function(stillpoint_missing what package)
+  message(FATAL_ERROR "stillpoint: ${what} was not found. On Debian or Ubuntu: sudo apt-get install ${package}. ${ARGN}")
+endfunction()
+
+find_package(Eigen3 CONFIG QUIET)
+if(NOT Eigen3_FOUND OR Eigen3_VERSION VERSION_LESS 3.4)
+  stillpoint_missing("Eigen 3.4 or later" libeigen3-dev "Elsewhere, set Eigen3_DIR to the folder of Eigen3Config.cmake.")
+endif()
+
+set(STILLPOINT_OPENCV_COMPONENTS core imgproc video features2d calib3d)
+set(STILLPOINT_IO_OPENCV_COMPONENTS imgcodecs videoio)
+if(STILLPOINT_WITH_OPENCV)
+  find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS ${STILLPOINT_OPENCV_COMPONENTS} ${STILLPOINT_IO_OPENCV_COMPONENTS})
+  if(NOT OpenCV_FOUND)
+    stillpoint_missing("OpenCV 4.6 or later" libopencv-dev
+      "Elsewhere, set OpenCV_DIR to the folder of OpenCVConfig.cmake. Without OpenCV, -DSTILLPOINT_WITH_OPENCV=OFF leaves "
+      "stillpoint::core, for hosts that bring their own matches.")
+  endif()
+endif()

@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# For our own tests, examples and benchmarks. A host that adds this project as a subfolder gets none of it.
+
+if(NOT STILLPOINT_WITH_OPENCV)
+  message(FATAL_ERROR "stillpoint: tests, examples and benchmarks need OpenCV; STILLPOINT_WITH_OPENCV is OFF")
+endif()
+
+if(PROJECT_IS_TOP_LEVEL)
+  get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(NOT multi_config AND NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, RelWithDebInfo or MinSizeRel" FORCE)
+    message(STATUS "stillpoint: no build type was given, taking Release")
+  endif()
+  find_program(STILLPOINT_CCACHE ccache DOC "Compiler cache, used where it is found")
+  mark_as_advanced(STILLPOINT_CCACHE)
+  if(STILLPOINT_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${STILLPOINT_CCACHE}")
+  endif()
+endif()
+
+# What each of our own targets is built with.
+add_library(stillpoint_developer INTERFACE)
+target_compile_options(stillpoint_developer INTERFACE
+  $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>
+  $<$<CXX_COMPILER_ID:MSVC>:/W4;/permissive->)
+if(STILLPOINT_WARNINGS_AS_ERRORS)
+  target_compile_options(stillpoint_developer INTERFACE
+    $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
+endif()
+# Loading all of OpenCV's image and video libraries takes 0.1 s a program: only those load them that use them.
+target_link_options(stillpoint_developer INTERFACE
+  $<$<AND:$<PLATFORM_ID:Linux>,$<CXX_COMPILER_ID:GNU,Clang>>:-Wl,--as-needed>)

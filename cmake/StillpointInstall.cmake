@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io]): one export set a component, so that a host that asks for
+# `core` never looks for OpenCV.
+
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/stillpoint")
+list(JOIN STILLPOINT_OPENCV_COMPONENTS " " package_opencv_components)
+list(JOIN STILLPOINT_IO_OPENCV_COMPONENTS " " package_io_opencv_components)
+list(JOIN STILLPOINT_COMPONENTS " " package_components)
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/stillpoint" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  FILES_MATCHING PATTERN "*.hpp")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/stillpoint")
+
+set(component_targets_core stillpoint_core)
+set(component_targets_stillpoint stillpoint)
+set(component_targets_io stillpoint_io)
+foreach(component IN LISTS STILLPOINT_COMPONENTS)
+  install(TARGETS ${component_targets_${component}} EXPORT stillpoint-${component})
+  install(EXPORT stillpoint-${component} NAMESPACE stillpoint:: DESTINATION "${package_dir}")
+endforeach()
+
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/stillpoint-config.cmake.in"
+  "${PROJECT_BINARY_DIR}/stillpoint-config.cmake" INSTALL_DESTINATION "${package_dir}"
+  NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/stillpoint-config-version.cmake"
+  COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES "${PROJECT_BINARY_DIR}/stillpoint-config.cmake" "${PROJECT_BINARY_DIR}/stillpoint-config-version.cmake"
+  DESTINATION "${package_dir}")

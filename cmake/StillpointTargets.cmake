@@ -1,0 +1,31 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# The targets a host links. They carry include folders, libraries and the language level, and not one flag.
+
+# stillpoint::core: needs Eigen only.
+add_library(stillpoint_core INTERFACE)
+add_library(stillpoint::core ALIAS stillpoint_core)
+set_target_properties(stillpoint_core PROPERTIES EXPORT_NAME core)
+target_compile_features(stillpoint_core INTERFACE cxx_std_17)
+target_include_directories(stillpoint_core INTERFACE
+  "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
+  "$<INSTALL_INTERFACE:include>")
+target_link_libraries(stillpoint_core INTERFACE Eigen3::Eigen)
+set(STILLPOINT_COMPONENTS core)
+
+if(STILLPOINT_WITH_OPENCV)
+  # stillpoint::stillpoint: the filter, with what needs OpenCV.
+  add_library(stillpoint INTERFACE)
+  add_library(stillpoint::stillpoint ALIAS stillpoint)
+  list(TRANSFORM STILLPOINT_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)
+  target_link_libraries(stillpoint INTERFACE stillpoint_core ${opencv_libraries})
+
+  # stillpoint::io: readers and writers of files.
+  add_library(stillpoint_io INTERFACE)
+  add_library(stillpoint::io ALIAS stillpoint_io)
+  set_target_properties(stillpoint_io PROPERTIES EXPORT_NAME io)
+  list(TRANSFORM STILLPOINT_IO_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)
+  target_link_libraries(stillpoint_io INTERFACE stillpoint ${opencv_libraries})
+  list(APPEND STILLPOINT_COMPONENTS stillpoint io)
+endif()

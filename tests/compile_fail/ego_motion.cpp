@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// The pose alone: nobody would know whether it can be trusted.
+// expected: stillpoint: Policies::EgoMotion must offer Motion estimate(const Matches&, const Regions&, const Camera&, const MotionPrior&, Workspace&); see motion/rigid_motion.hpp
+
+#include "sound_policies.hpp"
+
+struct PoseAlone {
+  stillpoint::Pose estimate(const stillpoint::Matches&, const stillpoint::Regions&, const stillpoint::Camera&,
+                            const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
+    return stillpoint::Pose::Identity();
+  }
+};
+
+struct Policies : SoundPolicies {
+#ifdef STILLPOINT_MISTAKE
+  using EgoMotion = PoseAlone;
+#endif
+};
+
+template void use<Policies>(const Policies::Camera&);

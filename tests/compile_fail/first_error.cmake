@@ -1,0 +1,25 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# cmake -P first_error.cmake -- COMMAND...: runs a compiler and prints its first error as one line `first error: ...`.
+
+math(EXPR last "${CMAKE_ARGC} - 1")
+set(command "")
+set(begun FALSE)
+foreach(i RANGE ${last})
+  if(begun)
+    list(APPEND command "${CMAKE_ARGV${i}}")
+  elseif("${CMAKE_ARGV${i}}" STREQUAL "--")
+    set(begun TRUE)
+  endif()
+endforeach()
+
+set(ENV{LC_ALL} C)  # plain English messages with plain quotes
+execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(status EQUAL 0)
+  message("it compiles")
+elseif(output MATCHES "error: ([^\n]*)")
+  message("first error: ${CMAKE_MATCH_1}")
+else()
+  message("no error, but status ${status}:\n${output}")
+endif()

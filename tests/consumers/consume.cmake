@@ -1,0 +1,33 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# Configures project/ afresh in BUILD, builds it and runs its programs. WAY: how it gets the library; COMPONENT: which
+# target it links. For `core` OpenCV is hidden.
+
+file(REMOVE_RECURSE "${BUILD}")
+set(arguments "-DWAY=${WAY}" "-DCOMPONENT=${COMPONENT}" "-DLIBRARY=${LIBRARY}"
+  "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
+  "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DEigen3_DIR=${EIGEN_DIR}")
+if(WAY STREQUAL "find_package")
+  list(APPEND arguments "-DCMAKE_PREFIX_PATH=${PREFIX}" "-DLIBRARY_VERSION=${VERSION}")
+endif()
+if(COMPONENT STREQUAL "core")
+  list(APPEND arguments -DCMAKE_DISABLE_FIND_PACKAGE_OpenCV=ON)
+else()
+  list(APPEND arguments "-DOpenCV_DIR=${OPENCV_DIR}")
+endif()
+unset(ENV{CMAKE_BUILD_TYPE})
+
+execute_process(
+  COMMAND ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${BUILD}" ${arguments}
+  COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${CMAKE_COMMAND} --build "${BUILD}" COMMAND_ERROR_IS_FATAL ANY)
+
+file(STRINGS "${BUILD}/programs.txt" programs)
+foreach(program IN LISTS programs)
+  execute_process(COMMAND "${program}" OUTPUT_VARIABLE output COMMAND_ERROR_IS_FATAL ANY)
+  message("${program}: ${output}")
+  if(NOT output MATCHES "kept [0-9]+ of 4")
+    message(FATAL_ERROR "expected 'kept <number> of 4'")
+  endif()
+endforeach()

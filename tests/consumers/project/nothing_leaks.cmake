@@ -1,0 +1,47 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# After the library was added: nothing of the host's is other than before.
+
+if(CMAKE_BUILD_TYPE OR DEFINED BUILD_TESTING OR DEFINED CMAKE_CXX_STANDARD OR CMAKE_CXX_FLAGS)
+  message(FATAL_ERROR "the library set CMAKE_BUILD_TYPE '${CMAKE_BUILD_TYPE}', BUILD_TESTING '${BUILD_TESTING}', "
+    "CMAKE_CXX_STANDARD '${CMAKE_CXX_STANDARD}' or CMAKE_CXX_FLAGS '${CMAKE_CXX_FLAGS}'")
+endif()
+
+get_cmake_property(new_variables CACHE_VARIABLES)
+list(REMOVE_ITEM new_variables ${variables_before})
+list(FILTER new_variables EXCLUDE REGEX "^(STILLPOINT_|stillpoint_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_|OpenCV_|Eigen3_|CMAKE_)")
+if(new_variables)
+  message(FATAL_ERROR "the library added to the host's cache: ${new_variables}")
+endif()
+
+# Where it is a subfolder, it has its interface targets and nothing to build.
+set(folder "")
+if(WAY STREQUAL "add_subdirectory")
+  set(folder "${LIBRARY}")
+elseif(WAY STREQUAL "fetch_content")
+  set(folder "${stillpoint_SOURCE_DIR}")
+endif()
+if(folder)
+  get_property(subfolders DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
+  get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+  list(REMOVE_ITEM targets stillpoint stillpoint_core stillpoint_io)
+  if(subfolders OR targets)
+    message(FATAL_ERROR "the library brought along ${targets} ${subfolders}")
+  endif()
+endif()
+
+# What a host links carries no flags.
+foreach(component core stillpoint io)
+  if(TARGET stillpoint::${component})
+    foreach(property COMPILE_OPTIONS COMPILE_DEFINITIONS LINK_OPTIONS)
+      get_target_property(value stillpoint::${component} INTERFACE_${property})
+      if(value)
+        message(FATAL_ERROR "stillpoint::${component} has ${property} '${value}'")
+      endif()
+    endforeach()
+  endif()
+endforeach()
+if(COMPONENT STREQUAL "core" AND TARGET stillpoint::stillpoint)
+  message(FATAL_ERROR "core was asked for, and stillpoint::stillpoint came along")
+endif()

@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# file_rules.sh PROJECT: every source says whose it is, no header is long, nobody draws random numbers behind our back.
+# Prints `file:line: ...` for each offence; exit status 1.
+set -euo pipefail
+cd "$1"
+longest=300  # lines; a header that passes it is two
+
+folders=()
+for folder in include tests examples bench cmake shim .ci; do
+  [[ ! -d $folder ]] || folders+=("$folder")
+done
+
+offences=$(
+  while IFS= read -r file; do
+    head -n 3 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file:1: no line 'SPDX-License-Identifier: MIT'"
+    case $file in include/*)
+      lines=$(wc -l < "$file")
+      ((lines <= longest)) || echo "$file:$lines: more than $longest lines: split it by idea"
+      # Distributions of <random> differ between standard libraries, and global generators between runs.
+      grep -nE '#include <random>|std::random_device|\b(rand|srand|theRNG)\(' "$file" |
+        sed "s|^\([0-9]*\):.*|$file:\1: random numbers come from core/random.hpp only|" || true
+      grep -nE 'std::(cout|cerr|clog)|\bf?printf\(' "$file" |
+        sed "s|^\([0-9]*\):.*|$file:\1: a guest prints nothing|" || true ;;
+    esac
+  done < <(find "${folders[@]}" -type f \
+    \( -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt \) |
+    LC_ALL=C sort)
+)
+[[ -z $offences ]] || { printf '%s\n' "$offences"; exit 1; }

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# include_rules.sh PROJECT: which header may include what. A stage knows core/ and nothing of its neighbours; only
+# filter_frame.hpp and policies.hpp know them all. Prints `file:line: 'include' ...` for each offence; exit status 1.
+set -euo pipefail
+cd "$1"
+
+# Patterns of `case`; an include is written as in the source, with its <> or "".
+std='<+([a-z_0-9])>'  # [[ ]] knows +(...): one or more
+eigen='<Eigen/*>'
+opencv='<opencv2/*>'
+core='"stillpoint/core/'
+bridge='"stillpoint/opencv.hpp"'  # how OpenCV's types are read
+
+# allowed HEADER: the patterns of what that header may include, one a line, and a name for the rule.
+allowed() {
+  local folder
+  case $1 in */*) folder=${1%%/*} ;; *) folder=$1 ;; esac
+  local own="\"stillpoint/$folder/*\""
+  case $folder in
+    core) rule='core/ includes the standard library, Eigen and core/ only'
+      printf '%s\n' "$std" "$eigen" "$core*\"" ;;
+    prior | match | motion | score | gate | cluster | memory | verdict)
+      rule='a stage includes core/, its own folder and OpenCV (opencv.hpp), never another stage'
+      printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
+    evaluation | synthetic) rule="$folder/ includes core/, its own folder and OpenCV"
+      printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
+    io) rule='io/ includes core/, evaluation/ (trajectories), its own folder and OpenCV'
+      printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;
+    detectors) rule='detectors/ includes core/, prior/, its own folder, OpenCV and networks'\'' libraries'
+      printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/prior/*"' ;;
+    adapters) rule='adapters/ includes the host, core/, the pipeline and its own folder'
+      printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
+    version.hpp) rule='version.hpp includes nothing' ;;
+    opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
+      printf '%s\n' "$std" "$opencv" "$core*\"" ;;
+    policies.hpp) rule='policies.hpp includes core/ and the stages'
+      printf '%s\n' "$std" "$core*\"" "${stages[@]}" ;;
+    stillpoint.hpp) rule='stillpoint.hpp includes neither io/, detectors/, adapters/, evaluation/ nor synthetic/'
+      printf '%s\n' "$std" "$core*\"" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' ;;
+    *.hpp) rule='a header beside filter_frame.hpp includes core/ and headers of that folder'
+      printf '%s\n' "$std" "$core*\"" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' "$bridge" ;;
+    *) rule="the folder $folder/ is not known to tests/structure/include_rules.sh: say there what it may include" ;;
+  esac
+}
+stages=()
+for stage in prior match motion score gate cluster memory verdict; do stages+=("\"stillpoint/$stage/*\""); done
+
+offences=0
+offence() {
+  printf '%s:%s: %s: %s\n' "$1" "$2" "$3" "$4"
+  offences=$((offences + 1))
+}
+
+root=include/stillpoint
+while IFS= read -r file; do
+  allowed "${file#"$root"/}" > /dev/null  # sets $rule
+  mapfile -t patterns < <(allowed "${file#"$root"/}")
+  while IFS=: read -r line text; do
+    [[ $text =~ ^[[:space:]]*\#[[:space:]]*include[[:space:]]*(.*[\>\"]) ]] || continue
+    include=${BASH_REMATCH[1]}
+    if [[ $include == '<Eigen/Dense>' || $include == '<Eigen/Eigen>' || $include == '<opencv2/opencv.hpp>' ]]; then
+      offence "$file" "$line" "$include" 'include the narrow header (Eigen/Core, opencv2/core/mat.hpp)'
+      continue
+    fi
+    for pattern in "${patterns[@]}"; do
+      # shellcheck disable=SC2053  # the right side is a pattern
+      [[ $include == $pattern ]] && continue 2
+    done
+    offence "$file" "$line" "$include" "$rule"
+  done < <(grep -nE '^[[:space:]]*#[[:space:]]*include' "$file" || true)
+done < <(find "$root" -name '*.hpp' | LC_ALL=C sort)
+
+[[ $offences == 0 ]] || { echo "$offences forbidden includes" >&2; exit 1; }
