@@ -4,7 +4,8 @@
 # What the library itself needs. Whatever is missing is named with its Debian package; nothing is downloaded.
 
 function(stillpoint_missing what package)
-  message(FATAL_ERROR "stillpoint: ${what} was not found. On Debian or Ubuntu: sudo apt-get install ${package}. ${ARGN}")
+  list(JOIN ARGN "" otherwise)
+  message(FATAL_ERROR "stillpoint: ${what} was not found. On Debian or Ubuntu: sudo apt-get install ${package}. ${otherwise}")
 endfunction()
 
 find_package(Eigen3 CONFIG QUIET)
