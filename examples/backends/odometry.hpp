@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A small RGB-D odometry: each frame's ORB corners are found again in the last keyframes by Lucas-Kanade; the
+// keyframes' depth makes points of them, and the pose is solved from the points. No map, no loop closing.
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core/mat.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pose_refinement.hpp"
+#include "stillpoint/core/compact.hpp"
+#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/opencv.hpp"
+
+namespace examples {
+
+/// ORB corners, one descriptor a row.
+struct OrbFeatures {
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+
+  void compact(span<const std::uint8_t> keep) { stillpoint::compact(keep, keypoints, descriptors); }
+};
+
+/// A backend of `FilteredTracker`. The world is the camera of the first frame that is tracked. Equal frames give equal
+/// bytes: nothing in it is drawn from a shared generator (solvePnPRansac seeds its own on every call).
+class RgbdOdometry {
+ public:
+  struct Options {
+    int features = 1000;
+    int window_px = 11;                ///< of Lucas-Kanade: the prediction is good, so that a small one will do
+    int pyramid_levels = 1;            ///< above the image itself
+    float forward_backward_px = 1.0f;  ///< a match that does not come back this near is none
+    std::size_t matched_keyframes = 3;
+    std::size_t stored_keyframes = 20;  ///< where a lost camera is looked for
+    double pixel_sigma = 0.5;           ///< of a Lucas-Kanade match
+    double depth_sigma_factor = 2.0;    ///< times KinectNoise: depth and colour are not taken at the same moment
+    double depth_step = 0.03;           ///< neighbours that differ by this share of the depth are an edge: no depth
+    double farthest_m = 6.0;            ///< depth beyond says little
+    double reprojection_px = 3.0;       ///< inlier limit of RANSAC
+    std::size_t fewest_features = 20;   ///< fewer that fit are no pose
+    double keyframe_share = 0.6;        ///< a new keyframe where the last explains less of the features with depth
+    double keyframe_motion = 0.15;      ///< or the camera has moved this far: metres plus radians
+  };
+  Options options;
+  stillpoint::KinectNoise depth_noise;
+  PoseRefinement refine;
+
+  explicit RgbdOdometry(Camera camera) : RgbdOdometry(std::move(camera), Options{}) {}
+  RgbdOdometry(Camera camera, const Options& settings)
+      : options(settings), camera_(std::move(camera)), orb_(cv::ORB::create(settings.features)) {}
+
+  OrbFeatures extract(const stillpoint::FrameView& frame) {
+    OrbFeatures features;
+    orb_->detectAndCompute(gray_of(frame), cv::noArray(), features.keypoints, features.descriptors);
+    return features;
+  }
+
+  /// @return world_from_camera. Nothing where too few features fit, or before a first frame with depth; the next frames
+  ///         are compared with the same keyframes again.
+  std::optional<Pose> track(const stillpoint::FrameView& frame, const OrbFeatures& features) {
+    Keyframe current = prepare(frame, features);
+    if (keyframes_.empty()) {
+      if (count_depths(current) < options.fewest_features) return std::nullopt;
+      remember(std::move(current));
+      return camera_from_world_.inverse();
+    }
+    Pose camera_from_world = stillpoint::orthonormalized(motion_ * camera_from_world_);
+    match_by_flow(current, camera_from_world);
+    if (!solve(current, camera_from_world)) {
+      match_by_descriptor(current);
+      if (!solve(current, camera_from_world)) {
+        motion_ = Pose::Identity();
+        lost_ = true;
+        return std::nullopt;
+      }
+    }
+    motion_ = lost_ ? Pose::Identity() : stillpoint::orthonormalized(camera_from_world * camera_from_world_.inverse());
+    lost_ = false;
+    camera_from_world_ = camera_from_world;
+    current.world_from_camera = camera_from_world.inverse();
+    if (wants_keyframe(current)) remember(std::move(current));
+    return camera_from_world.inverse();
+  }
+
+ private:
+  struct Keyframe {
+    OrbFeatures features;
+    std::vector<double> depth_m;   ///< of the features, 0 where there is none
+    std::vector<cv::Mat> pyramid;  ///< of the gray image
+    stillpoint::ImageBuffer depth;
+    double depth_factor = 1.0;
+    Pose world_from_camera = Pose::Identity();
+  };
+
+  /// Where a sighting comes from: a feature of the current frame, found in a keyframe.
+  struct Source {
+    std::size_t feature;
+    const Keyframe* keyframe;
+  };
+
+  cv::Size window() const { return {options.window_px, options.window_px}; }
+
+  cv::Mat gray_of(const stillpoint::FrameView& frame) {
+    if (!frame.gray.empty()) return stillpoint::as_mat(frame.gray);
+    stillpoint::gray_from_bgr(frame.colour, gray_);
+    return stillpoint::as_mat(gray_.view());
+  }
+
+  /// Everything a keyframe needs, copied: the frame's views may die.
+  Keyframe prepare(const stillpoint::FrameView& frame, const OrbFeatures& features) {
+    Keyframe current;
+    current.features = {features.keypoints, features.descriptors.clone()};
+    cv::buildOpticalFlowPyramid(gray_of(frame), current.pyramid, window(), options.pyramid_levels, true,
+                                cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+    current.depth.assign(frame.depth.image);
+    current.depth_factor = frame.depth.factor;
+    for (const cv::KeyPoint& keypoint : features.keypoints) current.depth_m.push_back(depth_at(current, keypoint.pt));
+    return current;
+  }
+
+  /// Mean depth of the 3x3 pixels, 0 where one of them has none or lies on another surface.
+  double depth_at(const Keyframe& frame, const cv::Point2f& pixel) const {
+    const stillpoint::DepthView depth(frame.depth.view(), frame.depth_factor);
+    const int u = cvRound(pixel.x), v = cvRound(pixel.y);
+    if (!depth.image.contains(u - 1, v - 1) || !depth.image.contains(u + 1, v + 1)) return 0.0;
+    const double centre_m = depth.metres(u, v);
+    if (!(centre_m > 0) || centre_m > options.farthest_m) return 0.0;
+    double sum_m = 0.0;
+    for (int dv = -1; dv <= 1; ++dv)
+      for (int du = -1; du <= 1; ++du) {
+        const double depth_m = depth.metres(u + du, v + dv);
+        if (!(depth_m > 0) || std::abs(depth_m - centre_m) > options.depth_step * centre_m) return 0.0;
+        sum_m += depth_m;
+      }
+    return sum_m / 9.0;
+  }
+
+  static std::size_t count_depths(const Keyframe& frame) {
+    std::size_t count = 0;
+    for (const double depth_m : frame.depth_m) count += depth_m > 0;
+    return count;
+  }
+
+  Vector3d point(const cv::Point2f& pixel, double depth_m) const {
+    return camera_.back_project(camera_.undistort({pixel.x, pixel.y}), depth_m);
+  }
+
+  void forget_sightings() {
+    sightings_.clear();
+    sources_.clear();
+  }
+
+  void add_sighting(const Keyframe& current, std::size_t feature, const Keyframe& keyframe, const cv::Point2f& there) {
+    const double depth_there_m = depth_at(keyframe, there);
+    if (!(depth_there_m > 0)) return;
+    const cv::Point2f& here = current.features.keypoints[feature].pt;
+    const double depth_m = current.depth_m[feature];
+    sightings_.push_back({keyframe.world_from_camera * point(there, depth_there_m), camera_.undistort({here.x, here.y}),
+                          options.pixel_sigma, depth_m, options.depth_sigma_factor * depth_noise.sigma(depth_m)});
+    sources_.push_back({feature, &keyframe});
+  }
+
+  /// Finds the features in the latest keyframes, beginning where the predicted pose puts them.
+  void match_by_flow(const Keyframe& current, const Pose& camera_from_world) {
+    forget_sightings();
+    const std::size_t first = keyframes_.size() - std::min(keyframes_.size(), options.matched_keyframes);
+    for (std::size_t i = first; i < keyframes_.size(); ++i) match_by_flow(current, camera_from_world, keyframes_[i]);
+  }
+
+  void match_by_flow(const Keyframe& current, const Pose& camera_from_world, const Keyframe& keyframe) {
+    constexpr double kUsualDepth_m = 2.0;  // where there is none: it only begins the search
+    const Pose keyframe_from_camera = (camera_from_world * keyframe.world_from_camera).inverse();
+    std::vector<cv::Point2f> here, there;
+    std::vector<std::size_t> feature;
+    for (std::size_t i = 0; i < current.depth_m.size(); ++i) {
+      const cv::Point2f& pixel = current.features.keypoints[i].pt;
+      const double depth_m = current.depth_m[i] > 0 ? current.depth_m[i] : kUsualDepth_m;
+      const Vector3d p_keyframe = keyframe_from_camera * point(pixel, depth_m);
+      if (!(p_keyframe.z() > 0.1)) continue;
+      const Vector2d guess = camera_.distort(camera_.project(p_keyframe));
+      if (!(guess.x() > 0 && guess.y() > 0 && guess.x() < camera_.width() - 1 && guess.y() < camera_.height() - 1))
+        continue;
+      here.push_back(pixel);
+      there.emplace_back(static_cast<float>(guess.x()), static_cast<float>(guess.y()));
+      feature.push_back(i);
+    }
+    if (here.empty()) return;
+    std::vector<cv::Point2f> back = here;
+    const std::vector<std::uint8_t> found = flow(current.pyramid, keyframe.pyramid, here, there);
+    const std::vector<std::uint8_t> found_back = flow(keyframe.pyramid, current.pyramid, there, back);
+    for (std::size_t i = 0; i < here.size(); ++i)
+      if (found[i] && found_back[i] && cv::norm(back[i] - here[i]) < options.forward_backward_px)
+        add_sighting(current, feature[i], keyframe, there[i]);
+  }
+
+  /// Lucas-Kanade from a first guess `to`, which it improves.
+  std::vector<std::uint8_t> flow(const std::vector<cv::Mat>& from_image, const std::vector<cv::Mat>& to_image,
+                                 const std::vector<cv::Point2f>& from, std::vector<cv::Point2f>& to) const {
+    std::vector<std::uint8_t> found;
+    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
+    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), options.pyramid_levels,
+                             until, cv::OPTFLOW_USE_INITIAL_FLOW);
+    return found;
+  }
+
+  /// Finds the features by their descriptors, anywhere in all stored keyframes: when no prediction helps.
+  void match_by_descriptor(const Keyframe& current) {
+    constexpr float kFarthest = 64.0f, kRatio = 0.8f;  // of 256 bits; to the second best (Lowe, 2004)
+    forget_sightings();
+    if (current.features.keypoints.empty()) return;
+    const cv::BFMatcher matcher(cv::NORM_HAMMING);
+    std::vector<std::vector<cv::DMatch>> matches;
+    for (const Keyframe& keyframe : keyframes_) {
+      matcher.knnMatch(current.features.descriptors, keyframe.features.descriptors, matches, 2);
+      for (const std::vector<cv::DMatch>& best : matches)
+        if (best.size() == 2 && best[0].distance < kFarthest && best[0].distance < kRatio * best[1].distance)
+          add_sighting(current, static_cast<std::size_t>(best[0].queryIdx), keyframe,
+                       keyframe.features.keypoints[static_cast<std::size_t>(best[0].trainIdx)].pt);
+    }
+  }
+
+  /// RANSAC, then refinement. Changes the pose only when enough features fit.
+  bool solve(const Keyframe& current, Pose& camera_from_world) {
+    constexpr int kIterations = 200;
+    constexpr double kConfidence = 0.999;
+    if (sightings_.size() < options.fewest_features) return false;
+    std::vector<cv::Point3d> points;
+    std::vector<cv::Point2d> pixels;
+    for (const PointSighting& sighting : sightings_) {
+      points.emplace_back(sighting.p_world.x(), sighting.p_world.y(), sighting.p_world.z());
+      pixels.emplace_back(sighting.pixel.x(), sighting.pixel.y());
+    }
+    const cv::Matx33d k(camera_.fx(), 0, camera_.cx(), 0, camera_.fy(), camera_.cy(), 0, 0, 1);
+    cv::Vec3d rotation, translation;
+    if (!cv::solvePnPRansac(points, pixels, k, cv::noArray(), rotation, translation, false, kIterations,
+                            static_cast<float>(options.reprojection_px), kConfidence, cv::noArray(), cv::SOLVEPNP_AP3P))
+      return false;
+    Pose solution = Pose::Identity();
+    solution.linear() = stillpoint::rotation_from_vector({rotation[0], rotation[1], rotation[2]});
+    solution.translation() = Vector3d(translation[0], translation[1], translation[2]);
+    refine(sightings_, camera_, solution, inlier_);
+    if (count_fitting(current, nullptr) < options.fewest_features) return false;
+    camera_from_world = solution;
+    return true;
+  }
+
+  /// How many features fit the pose, by any keyframe (null) or by one.
+  std::size_t count_fitting(const Keyframe& current, const Keyframe* keyframe) const {
+    std::vector<std::uint8_t> fits(current.depth_m.size(), 0);
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      if (inlier_[i] && (keyframe == nullptr || sources_[i].keyframe == keyframe)) fits[sources_[i].feature] = 1;
+    std::size_t count = 0;
+    for (const std::uint8_t flag : fits) count += flag;
+    return count;
+  }
+
+  bool wants_keyframe(const Keyframe& current) const {
+    const Keyframe& last = keyframes_.back();
+    const Pose last_from_camera = last.world_from_camera.inverse() * current.world_from_camera;
+    const double motion = last_from_camera.translation().norm() + stillpoint::rotation_angle(last_from_camera.linear());
+    const double explained = static_cast<double>(count_fitting(current, &last));
+    return motion > options.keyframe_motion ||
+           explained < options.keyframe_share * static_cast<double>(count_depths(current));
+  }
+
+  void remember(Keyframe&& keyframe) {
+    keyframes_.push_back(std::move(keyframe));
+    if (keyframes_.size() > options.stored_keyframes) keyframes_.pop_front();
+  }
+
+  Camera camera_;
+  cv::Ptr<cv::ORB> orb_;
+  stillpoint::ImageBuffer gray_;
+  std::deque<Keyframe> keyframes_;
+  std::vector<PointSighting> sightings_;
+  std::vector<Source> sources_;
+  std::vector<std::uint8_t> inlier_;
+  Pose camera_from_world_ = Pose::Identity();
+  Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose
+  bool lost_ = false;
+};
+
+}  // namespace examples

@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The loop of a tracker with a filter in front: extract, filter, compact, track, feed the pose back.
+//
+// What the two sides must offer:
+//
+// | who      | member                                                          | meaning |
+// |----------|-----------------------------------------------------------------|---------------------------------------|
+// | Backend  | Features extract(const FrameView&)                              | a frame's key points, and whatever |
+// |          |                                                                 | arrays belong to them | | Features |
+// keypoints                                                       | contiguous, with keypoint_traits      | | Features
+// | void compact(span<const std::uint8_t> keep)                     | drops entry i of every array where    | | | |
+// keep[i] is 0; core/compact.hpp does it| | Backend  | std::optional<Pose> track(const FrameView&, const Features&) |
+// world_from_camera of that frame, or   | |          | | nothing: the next frame is tried anew | | Backend  | void
+// feedback(const Pose& world_from_camera)                    | optional: the pose it returned        | | Filter   |
+// Result filter_frame(const FrameView&, const Keypoints&)         | judges them; may return a reference   | | Result |
+// keep(), converts to span<const std::uint8_t>                    | one byte a key point, 0 drops         | | Filter |
+// void feedback(const Pose& world_from_camera)                    | optional: helps to predict            |
+//
+// Each is called once a frame, in the order of `track` below, `feedback` only where there is a pose.
+
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/keypoint.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+// clang-format off
+
+template <class B, class = void> struct has_extract : std::false_type {};
+template <class B> struct has_extract<B, std::enable_if_t<!std::is_void_v<decltype(
+    std::declval<B&>().extract(std::declval<const FrameView&>()))>>> : std::true_type {};
+
+template <class F, class = void> struct has_keypoints : std::false_type {};
+template <class F> struct has_keypoints<F, std::enable_if_t<detail::has_keypoint_traits<
+    typename decltype(span(std::declval<const F&>().keypoints))::value_type>::value>> : std::true_type {};
+
+template <class F, class = void> struct has_compact : std::false_type {};
+template <class F> struct has_compact<F, std::void_t<decltype(
+    std::declval<F&>().compact(std::declval<span<const std::uint8_t>>()))>> : std::true_type {};
+
+template <class B, class Features, class = void> struct has_track : std::false_type {};
+template <class B, class Features> struct has_track<B, Features, std::enable_if_t<std::is_convertible_v<decltype(
+    std::declval<B&>().track(std::declval<const FrameView&>(), std::declval<const Features&>())),
+    std::optional<Pose>>>> : std::true_type {};
+
+template <class F, class Features, class = void> struct has_filter_frame : std::false_type {};
+template <class F, class Features> struct has_filter_frame<F, Features, std::enable_if_t<std::is_convertible_v<decltype(
+    std::declval<F&>().filter_frame(std::declval<const FrameView&>(), std::declval<const Features&>().keypoints).keep()),
+    span<const std::uint8_t>>>> : std::true_type {};
+
+template <class T, class = void> struct has_feedback : std::false_type {};
+template <class T> struct has_feedback<T, std::void_t<decltype(
+    std::declval<T&>().feedback(std::declval<const Pose&>()))>> : std::true_type {};
+
+// clang-format on
+
+/// Instantiated by `FilteredTracker`: one readable error for the first thing that is missing.
+template <class Filter, class Backend>
+class TrackerContract {
+  template <class B, class = void>
+  struct FeaturesOf {
+    struct type {};
+  };
+  template <class B>
+  struct FeaturesOf<B, std::enable_if_t<has_extract<B>::value>> {
+    using type = std::decay_t<decltype(std::declval<B&>().extract(std::declval<const FrameView&>()))>;
+  };
+
+ public:
+  using Features = typename FeaturesOf<Backend>::type;
+
+ private:
+  static constexpr bool kExtracts = has_extract<Backend>::value;
+  static constexpr bool kHasKeypoints = has_keypoints<Features>::value;
+  static_assert(kExtracts,
+                "stillpoint: Backend must offer Features extract(const FrameView&); see adapters/filtered_tracker.hpp");
+  static_assert(!kExtracts || kHasKeypoints,
+                "stillpoint: Backend::extract must return features with a public, contiguous `keypoints` whose element "
+                "has stillpoint::keypoint_traits; see core/keypoint.hpp");
+  static_assert(!kExtracts || has_compact<Features>::value,
+                "stillpoint: Backend::extract must return features with void compact(span<const std::uint8_t> keep); "
+                "see core/compact.hpp");
+  static_assert(!kExtracts || has_track<Backend, Features>::value,
+                "stillpoint: Backend must offer std::optional<Pose> track(const FrameView&, const Features&); see "
+                "adapters/filtered_tracker.hpp");
+  static_assert(!kHasKeypoints || has_filter_frame<Filter, Features>::value,
+                "stillpoint: Filter must offer filter_frame(const FrameView&, const Keypoints&), whose result has "
+                "keep() -> span<const std::uint8_t>; see adapters/null_filter.hpp");
+
+ public:
+  static constexpr bool holds = kExtracts && kHasKeypoints && has_compact<Features>::value &&
+                                has_track<Backend, Features>::value && has_filter_frame<Filter, Features>::value;
+};
+
+/// A tracker that sees only what its filter keeps.
+/// @tparam Filter  `FrameFilter<...>`, `NullFilter` for the unfiltered run, or a type of your own
+/// @tparam Backend any tracker that takes features
+template <class Filter, class Backend>
+class FilteredTracker : private TrackerContract<Filter, Backend> {
+  using Contract = TrackerContract<Filter, Backend>;
+
+ public:
+  using Features = typename Contract::Features;
+
+  FilteredTracker(Filter a_filter, Backend a_backend) : filter(std::move(a_filter)), backend(std::move(a_backend)) {}
+
+  Filter filter;    ///< which features stand still?
+  Backend backend;  ///< where is the camera?
+
+  /// Tracks one frame. Frames come in the order of time.
+  /// @return world_from_camera, or nothing where the backend has no pose for this frame.
+  /// @throws what the backend throws, and Error where the filter's answer is not one flag a key point (by `compact`).
+  std::optional<Pose> track(const FrameView& frame) {
+    return track(frame, [](const auto&, const auto&) {});
+  }
+
+  /// The same, and shows what was decided: for a record of every feature, dropped ones too.
+  /// @param observe called as observe(keypoints, result) with all key points and the filter's result, before compaction
+  template <class Observer>
+  std::optional<Pose> track(const FrameView& frame, Observer&& observe) {
+    if constexpr (Contract::holds) {
+      Features features = backend.extract(frame);
+      const auto& result = filter.filter_frame(frame, features.keypoints);
+      observe(std::as_const(features.keypoints), result);
+      features.compact(result.keep());
+      const std::optional<Pose> world_from_camera = backend.track(frame, features);
+      if (world_from_camera) feed_back(*world_from_camera);
+      return world_from_camera;
+    } else {
+      return std::nullopt;  // the contract has said what is missing: no second error
+    }
+  }
+
+ private:
+  void feed_back(const Pose& world_from_camera) {
+    if constexpr (has_feedback<Filter>::value) filter.feedback(world_from_camera);
+    if constexpr (has_feedback<Backend>::value) backend.feedback(world_from_camera);
+  }
+};
+
+}  // namespace stillpoint
