@@ -78,11 +78,10 @@ class Timed {
 template <class Use>
 decltype(auto) with_backend(const Options& options, const stillpoint::Camera& camera, Use&& use) {
   if (options.backend == "none") return use([&] { return Timed(NoTracker(options.features)); });
-  return use([&] {
-    typename examples::Odometry::Options odometry;
+  return use([&camera, &options] {
+    examples::RgbdOdometry::Options odometry;
     odometry.features = options.features;
-    odometry.seed = options.seed;
-    return Timed(examples::Odometry(camera, odometry));
+    return Timed(examples::RgbdOdometry(camera, odometry));
   });
 }
 

@@ -157,7 +157,7 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   add_number("--start", options.start, 0, most, "first frame, counted from 0");
   add_number("--frames", options.frames, 1, most, "frames at most")->default_str("all");
   add_number("--seed", options.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
-             "of the filter's and the tracker's random numbers");
+             "of the filter's random numbers");
   add_number("--threads", options.threads, 1, 1024, "that OpenCV may use; results do not depend on it");
   app.add_flag("--quiet", options.quiet, "no progress on standard error");
 

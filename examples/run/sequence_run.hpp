@@ -22,18 +22,26 @@
 #include "progress.hpp"
 #include "stillpoint/adapters/filtered_tracker.hpp"
 #include "stillpoint/adapters/null_filter.hpp"
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/io/number_format.hpp"
 
 namespace stillpoint_run {
 
 namespace detail {
 
 /// Counts a frame's labels: all in all, and for this frame alone.
+/// @throws stillpoint::Error where the label image holds a value that is none.
 inline void count_labels(const SourceFrame& frame, FrameRecord& record, stillpoint::FilterScore& score) {
   const auto since = [](const stillpoint::DropCount& now, const stillpoint::DropCount& before) {
     return stillpoint::DropCount{now.features - before.features, now.dropped - before.dropped};
   };
   const stillpoint::DropCount moving = score.moving(), background = score.background();
-  score.add_frame(frame.labels, record.pixels, record.keep);
+  try {
+    score.add_frame(frame.labels, record.pixels, record.keep);
+  } catch (const stillpoint::Error& error) {
+    throw stillpoint::Error("labels of the frame at " + stillpoint::format_timestamp(frame.timestamp_s) +
+                            " s: " + error.what());
+  }
   record.summary.moving = since(score.moving(), moving);
   record.summary.background = since(score.background(), background);
 }

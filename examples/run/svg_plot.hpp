@@ -40,9 +40,8 @@ struct Plot {
   std::vector<Mark> marks;
   std::vector<std::pair<std::string, std::string>> mark_names;  ///< css class and name, for the legend
   bool is_stacked = false;                                      ///< lines are heights of areas, one upon the other
-  bool has_equal_scales = false;                                ///< a map: a metre is as long in both directions
-  bool starts_at_zero = true;                                   ///< the y axis; not for a map
-  double y_at_least = 0.0;                                      ///< the y axis reaches at least here
+  bool has_equal_scales = false;  ///< a map: a metre is as long in both directions; else y begins at 0
+  double y_at_least = 0.0;        ///< the y axis reaches at least here
 };
 
 namespace detail {
@@ -94,7 +93,7 @@ class PlotDrawing {
       x_.include(mark.x_begin);
       x_.include(mark.x_end);
     }
-    if (!plot.has_equal_scales && plot.starts_at_zero) y_.include(0.0);
+    if (!plot.has_equal_scales) y_.include(0.0);
     if (plot.y_at_least > 0) y_.include(plot.y_at_least);
     x_.settle();
     y_.settle();

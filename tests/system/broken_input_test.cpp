@@ -122,7 +122,7 @@ TEST_F(BrokenInput, LabelsThatAreMissing) {
 TEST_F(BrokenInput, LabelsOfAnUnknownValue) {
   const std::string image = fs::path(split(line(1), ' ')[1]).filename().string();
   cv::imwrite((sequence / "labels" / image).string(), cv::Mat(120, 160, CV_8UC1, cv::Scalar(77)));
-  expect_named_error({"label 77", "expected 0, 64, 128 or 255"});
+  expect_named_error({"labels of the frame at 1.033333", "label 77", "expected 0, 64, 128 or 255"});
 }
 
 TEST_F(BrokenInput, GapInTimeIsAStatus) {

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// Runs the filter over a sequence, with a tracker behind it and the same tracker without it beside it, and reports what
+// it did: trajectories, every feature's verdict, figures, a page to look at.
+
+#include <opencv2/core/utility.hpp>
+#include <opencv2/core/utils/logger.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "run/backends.hpp"
+#include "run/csv_files.hpp"
+#include "run/figures.hpp"
+#include "run/filters.hpp"
+#include "run/frame_source.hpp"
+#include "run/options.hpp"
+#include "run/overlay.hpp"
+#include "run/report_html.hpp"
+#include "run/report_json.hpp"
+#include "run/sequence_run.hpp"
+#include "run/words.hpp"
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/io/atomic_file.hpp"
+#include "stillpoint/io/trajectory_file.hpp"
+
+namespace stillpoint_run {
+namespace {
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw stillpoint::Error("--out: found " + folder.string() + ", expected a folder or a place where one can be made" +
+                            (error ? " (" + error.message() + ")" : ""));
+}
+
+void write_whole(const std::filesystem::path& file, const std::string& text) {
+  stillpoint::AtomicFile output(file);
+  output.write(text);
+  output.commit();
+}
+
+/// Nothing gets its name before everything is computed: after an error OUT is as it was.
+void run(const Options& options) {
+  cv::setNumThreads(options.threads);
+  const std::unique_ptr<FrameSource> source = open_source(options);
+  make_folder(options.out);
+  FeaturesFile features(options.out / "features.csv");
+  FramesFile frames(options.out / "frames.csv");
+  Gallery gallery(frame_count(options, *source));
+
+  const RunRecord record = with_filter(options, source->camera(), [&](auto filter) {
+    return with_backend(options, source->camera(), [&](auto&& make_tracker) {
+      return run_frames(options, *source, std::move(filter), make_tracker(), make_tracker(),
+                        RunOutput{features, frames, gallery});
+    });
+  });
+  const Figures figures = evaluate(record);
+  const std::string json = report_json(options, record, figures);
+  const std::string html = report_html(options, record, figures, gallery.overlays());
+
+  stillpoint::write_trajectory(options.out / "trajectory.txt", record.filtered);
+  stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
+  features.commit();
+  frames.commit();
+  write_whole(options.out / "report.json", json);
+  write_whole(options.out / "report.html", html);
+  for (const std::string& sentence : sentences(options, record, figures)) std::printf("%s\n", sentence.c_str());
+  std::printf("Report: %s\n", (options.out / "report.html").string().c_str());
+}
+
+}  // namespace
+}  // namespace stillpoint_run
+
+int main(int argument_count, char** arguments) {
+  constexpr int kFailed = 2;
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // an error is one line, and ours
+  try {
+    stillpoint_run::run(stillpoint_run::parse_options(argument_count, arguments));
+    return 0;
+  } catch (const stillpoint_run::NothingToRun&) {
+    return 0;
+  } catch (const std::exception& error) {
+    std::string line = error.what();
+    line = line.substr(0, line.find('\n'));
+    std::fprintf(stderr, "stillpoint_run: %s\n", line.c_str());
+    return kFailed;
+  }
+}
