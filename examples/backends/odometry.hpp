@@ -51,7 +51,7 @@ class RgbdOdometry {
     double depth_step = 0.03;           ///< neighbours that differ by this share of the depth are an edge: no depth
     double farthest_m = 6.0;            ///< depth beyond says little
     double reprojection_px = 3.0;       ///< inlier limit of RANSAC
-    std::size_t fewest_features = 20;   ///< fewer that fit are no pose
+    std::size_t fewest_features = 12;   ///< fewer that fit are no pose; at 20, one bad stretch loses it for good
     double keyframe_share = 0.6;        ///< a new keyframe where the last explains less of the features with depth
     double keyframe_motion = 0.15;      ///< or the camera has moved this far: metres plus radians
   };
