@@ -108,7 +108,7 @@ void expect_report(const Json& report, int frame_count) {
                                       "improvement_percent"};
   std::set<std::string> found;
   for (const auto& [key, value] : report.items()) found.insert(key);
-  EXPECT_EQ(found, keys);
+  ASSERT_EQ(found, keys);
   for (const char* key : {"version", "sequence", "policies", "prior"}) EXPECT_TRUE(report[key].is_string()) << key;
   EXPECT_EQ(report["frames"], frame_count);
   for (const char* key : {"features_per_frame", "kept_share", "ate_rmse_m", "ate_rmse_unfiltered_m",
@@ -211,7 +211,7 @@ TEST_F(Demo, IsTheSameBytesTwice) {
     EXPECT_EQ(read_text(out() / name), read_text(other / "out" / name)) << name;
 }
 
-TEST_F(Demo, OracleDropsAllThatMoves) {
+TEST(DemoChoices, OracleDropsAllThatMoves) {
   const TemporaryFolder other;
   ASSERT_EQ(run_program("--demo --quiet --prior labels --frames 4 --out " + quoted(other / "out")).status, 0);
   expect_everything(other / "out", 4);
@@ -220,7 +220,7 @@ TEST_F(Demo, OracleDropsAllThatMoves) {
   EXPECT_EQ(labels["false_alarms"], 0.0);
 }
 
-TEST_F(Demo, WithoutABackendThereIsNoTrajectory) {
+TEST(DemoChoices, WithoutABackendThereIsNoTrajectory) {
   const TemporaryFolder other;
   const Outcome outcome = run_program("--demo --quiet --backend none --frames 4 --out " + quoted(other / "out"));
   ASSERT_EQ(outcome.status, 0) << outcome.error;
@@ -241,7 +241,7 @@ TEST_F(Demo, StartsWhereItIsTold) {
   EXPECT_EQ(part[1][1], "first_frame");
 }
 
-TEST_F(Demo, EveryChoiceRuns) {
+TEST(DemoChoices, EveryChoiceRuns) {
   const TemporaryFolder other;
   for (const char* choice : {"--ego-motion rigid", "--ego-motion epipolar", "--paper-as-printed eq3,eq8,unit-t",
                              "--depth-noise stereo", "--depth-noise tof", "--prior none", "--features 50"}) {
@@ -251,7 +251,7 @@ TEST_F(Demo, EveryChoiceRuns) {
   }
 }
 
-TEST_F(Demo, OneFrameIsEnough) {
+TEST(DemoChoices, OneFrameIsEnough) {
   const TemporaryFolder other;
   ASSERT_EQ(run_program("--demo --quiet --frames 1 --out " + quoted(other / "out")).status, 0);
   expect_everything(other / "out", 1);
