@@ -81,7 +81,7 @@ inline AlignmentResult align_points(span<const Vector3d> source, span<const Vect
   }
 
   const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector3d singular = svd.singularValues();
+  const Vector3d& singular = svd.singularValues();
   // The second value is the product of both sets' extents across their longest direction: 1e-12 of the first is a
   // millionth of the length in each. The rounding of points on a line stays far below (about 1e-16).
   constexpr double kSmallestSpreadRatio = 1e-12;
