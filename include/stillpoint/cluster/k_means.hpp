@@ -63,21 +63,32 @@ class NearestCentre {
 
   void clear() noexcept { std::fill(squared_.begin(), squared_.end(), std::numeric_limits<float>::infinity()); }
 
-  void offer(const Eigen::Vector3f& centre, std::int32_t index) noexcept {
-    const float cx = centre.x(), cy = centre.y(), cz = centre.z();
-    for (std::size_t begin = 0; begin < points_.x.size(); begin += PointArrays::kLane) {
-      const float* const x = points_.x.data() + begin;
-      const float* const y = points_.y.data() + begin;
-      const float* const z = points_.z.data() + begin;
-      float* const best = squared_.data() + begin;
-      std::int32_t* const best_index = index_.data() + begin;
-      for (std::size_t i = 0; i < PointArrays::kLane; ++i) {
-        const float dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
-        const float squared = dx * dx + dy * dy + dz * dz;
-        const bool nearer = squared < best[i];
-        best[i] = nearer ? squared : best[i];
-        best_index[i] = nearer ? index : best_index[i];
+  /// Offers centres in their order, with the indices from `first_index` on. A lane of points stays near the arithmetic
+  /// while all centres pass by; its local arrays can't overlap, as the compiler would have to fear of spans.
+  void offer(span<const Eigen::Vector3f> centres, std::int32_t first_index) noexcept {
+    constexpr std::size_t kLane = PointArrays::kLane;
+    for (std::size_t begin = 0; begin < points_.x.size(); begin += kLane) {
+      float x[kLane], y[kLane], z[kLane], best[kLane];
+      std::int32_t best_index[kLane];
+      std::copy_n(points_.x.data() + begin, kLane, x);
+      std::copy_n(points_.y.data() + begin, kLane, y);
+      std::copy_n(points_.z.data() + begin, kLane, z);
+      std::copy_n(squared_.data() + begin, kLane, best);
+      std::copy_n(index_.data() + begin, kLane, best_index);
+      std::int32_t index = first_index;
+      for (const Eigen::Vector3f& centre : centres) {
+        const float cx = centre.x(), cy = centre.y(), cz = centre.z();
+        for (std::size_t i = 0; i < kLane; ++i) {
+          const float dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
+          const float squared = dx * dx + dy * dy + dz * dz;
+          const std::int32_t nearer = -static_cast<std::int32_t>(squared < best[i]);  // all bits: no branch for g++
+          best_index[i] = (nearer & index) | (~nearer & best_index[i]);
+          best[i] = std::min(best[i], squared);
+        }
+        ++index;
       }
+      std::copy_n(best, kLane, squared_.data() + begin);
+      std::copy_n(best_index, kLane, index_.data() + begin);
     }
   }
 
@@ -103,7 +114,7 @@ inline span<Eigen::Vector3f> k_means_plus_plus(const PointArrays& points, std::s
   std::size_t chosen = random.index(points.size);
   for (std::size_t c = 0; c < k; ++c) {
     centres[c] = points[chosen];
-    nearest.offer(centres[c], static_cast<std::int32_t>(c));
+    nearest.offer(centres.subspan(c, 1), static_cast<std::int32_t>(c));
     double total = 0;
     for (std::size_t i = 0; i < points.size; ++i) total += static_cast<double>(nearest.squared(i));
     if (!(total > 0)) {  // fewer different points than centres
@@ -140,7 +151,7 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
     bool changed = false;
     double left = 0;  // what moving the centres may still gain
     nearest.clear();
-    for (std::size_t c = 0; c < k; ++c) nearest.offer(centres[c], static_cast<std::int32_t>(c));
+    nearest.offer(centres, 0);
     std::fill(sum.begin(), sum.end(), Vector3d::Zero());
     std::fill(result.member_count.begin(), result.member_count.end(), std::size_t{0});
     for (std::size_t i = 0; i < points.size; ++i) {
