@@ -28,20 +28,24 @@ template <class Policies = DefaultPolicies>
 class FrameFilter : private PolicyContract<Policies> {
  public:
   using Camera = typename Policies::Camera;
+  using DepthNoise = typename Policies::DepthNoise;
+  using Matcher = typename Policies::Matcher;
+  using EgoMotion = typename Policies::EgoMotion;
+  using Memory = typename Policies::Memory;
 
   explicit FrameFilter(Camera camera_model) : camera(std::move(camera_model)), history_(Policies::kHistoryLength) {}
 
   Camera camera;                                ///< intrinsics and distortion
   FrameCheck frame_check;                       ///< which frames can be judged at all?
-  typename Policies::DepthNoise depth_noise;    ///< how wrong is a depth?
+  DepthNoise depth_noise;                       ///< how wrong is a depth?
   typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
   typename Policies::Prior prior;               ///< where may something move?
-  typename Policies::Matcher matcher;           ///< where was each feature before?
-  typename Policies::EgoMotion ego_motion;      ///< how did the camera move?
+  Matcher matcher;                              ///< where was each feature before?
+  EgoMotion ego_motion;                         ///< how did the camera move?
   typename Policies::Scorer scorer;             ///< how badly does each feature disagree with that motion?
   typename Policies::Gate gate;                 ///< which disagreement is more than noise?
   typename Policies::Classifier classifier;     ///< what moves together?
-  typename Policies::Memory memory;             ///< what did we know of this feature?
+  Memory memory;                                ///< what did we know of this feature?
   typename Policies::KeepFloor keep_floor;      ///< how much must be left?
 
   /// Judges the key points of a frame. Call it before the tracker, with frames in the order of time.
@@ -102,11 +106,13 @@ class FrameFilter : private PolicyContract<Policies> {
       lift(reference, depth_lookup, camera, depth_noise, matches_.reference);
     });
     regions_.locate(matches_.current.pixel);
+    if constexpr (recalls<Memory>::value) timings.run(Stage::memory, [&] { memory.recall(matches_, workspace_); });
     timings.run(Stage::motion, [&] {
       motion = ego_motion.estimate(matches_, regions_, camera, motion_prior_, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
     if (!motion.usable()) return motion.status;
+    if constexpr (looks_back<Matcher, Camera, DepthNoise>::value) look_again(frame, motion, timings);
 
     const span<FeatureScore> scores = workspace_.take<FeatureScore>(matches_.size());
     const span<Label> labels = workspace_.take<Label>(matches_.size());
@@ -123,11 +129,27 @@ class FrameFilter : private PolicyContract<Policies> {
     return result_.keep_floor_kept() > 0 ? Status::keep_floor : motion.status;
   }
 
+  /// With the motion known, looks for every feature in older frames, and refines the motion by what is seen there.
+  void look_again(const FrameView& frame, Motion& motion, Timings& timings) {
+    timings.run(Stage::match, [&] {
+      matcher.look_back(history_, frame, filter_from(motion), camera, depth_noise, matches_, workspace_);
+    });
+    if constexpr (recalls<Memory>::value)
+      timings.run(Stage::memory, [&] { memory.recall_surfaces(matches_, workspace_); });
+    if constexpr (refines<EgoMotion, Camera>::value)
+      timings.run(Stage::motion, [&] { ego_motion.refine(matches_, regions_, camera, motion, workspace_); });
+  }
+
+  /// The filter's own chained pose of the current frame.
+  Pose filter_from(const Motion& motion) const {
+    return orthonormalized(filter_from_camera_ * motion.current_from_reference.inverse());
+  }
+
   /// Makes this frame the reference of the next.
   void remember(const FrameView& frame) {
     const Motion& motion = result_.motion_;
     if (motion.usable())
-      filter_from_camera_ = orthonormalized(filter_from_camera_ * motion.current_from_reference.inverse());
+      filter_from_camera_ = filter_from(motion);
     else
       history_.clear();  // the older frames' poses are not known from here
     history_.push(frame, filter_from_camera_);

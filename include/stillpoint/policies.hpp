@@ -7,16 +7,24 @@
 #include <cstddef>
 
 #include "stillpoint/cluster/region_clusters.hpp"
+#include "stillpoint/cluster/surface_clusters.hpp"
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/gate/mean_gate.hpp"
+#include "stillpoint/gate/tail_gate.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"
+#include "stillpoint/match/patch_matcher.hpp"
+#include "stillpoint/memory/evidence_memory.hpp"
 #include "stillpoint/memory/no_memory.hpp"
 #include "stillpoint/motion/epipolar_motion.hpp"
 #include "stillpoint/motion/rigid_motion.hpp"
+#include "stillpoint/motion/support_motion.hpp"
 #include "stillpoint/prior/box_prior.hpp"
 #include "stillpoint/score/offset_score.hpp"
+#include "stillpoint/score/sighting_score.hpp"
+#include "stillpoint/verdict/keep_floor.hpp"
 #include "stillpoint/verdict/no_keep_floor.hpp"
 
 namespace stillpoint {
@@ -40,6 +48,23 @@ struct PaperPolicies {
 /// The paper's method with a metric 3D-3D ego-motion in place of the epipolar one.
 struct PaperRigidPolicies : PaperPolicies {
   using EgoMotion = RigidMotion;
+};
+
+/// What users get: every feature is tested against several older frames, the prior only shifts odds, evidence adds up
+/// over time, and the tracker is never left without features.
+struct DefaultPolicies {
+  using Camera = stillpoint::Camera;
+  using DepthNoise = AnyDepthNoise;
+  using DepthLookup = GuardedDepth;
+  using Prior = BoxPrior;
+  using Matcher = PatchMatcher;
+  using EgoMotion = SupportMotion;
+  using Scorer = SightingScore;
+  using Gate = TailGate;
+  using Classifier = SurfaceClusters;
+  using Memory = EvidenceMemory;
+  using KeepFloor = stillpoint::KeepFloor;
+  static constexpr std::size_t kHistoryLength = 16;  ///< half a second at 30 Hz, 15 MB in 640 × 480
 };
 
 }  // namespace stillpoint

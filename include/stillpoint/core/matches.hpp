@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/sightings.hpp"
 #include "stillpoint/core/span.hpp"
 
 namespace stillpoint {
@@ -64,6 +65,8 @@ struct Matches {
   Observations current;
   Observations reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;
+  std::vector<float> trust;  ///< 0 to 1: how much a feature may say of the camera's motion, from memory
+  Sightings sightings;       ///< in older frames, for a matcher that looks back
 
   std::size_t size() const noexcept { return state.size(); }
 
@@ -79,6 +82,8 @@ struct Matches {
     current.resize(0);
     reference.resize(0);
     state.clear();
+    trust.clear();
+    sightings.clear();
     resize(host_count);
     for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = pixels[i];
   }
@@ -87,6 +92,7 @@ struct Matches {
     current.resize(count);
     reference.resize(count);
     state.resize(count, MatchState::lost);
+    trust.resize(count, 1.0f);
   }
 };
 

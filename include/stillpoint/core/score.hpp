@@ -79,6 +79,7 @@ struct Label {
   Reason reason = Reason::not_judged;
   bool keep = true;
   std::int32_t cluster = kNoCluster;
+  float log_odds = 0;  ///< of this frame alone, then of all frames: that it moves; natural logarithm
   float probability = std::numeric_limits<float>::quiet_NaN();  ///< that it moves, 0 to 1; NaN where nobody says
 };
 

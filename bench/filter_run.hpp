@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The whole filter over the frames of a clip, again and again.
+
+#include <cstddef>
+
+#include "clip.hpp"
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/policies.hpp"
+
+namespace stillpoint::bench {
+
+namespace detail {
+
+/// Only a prior that takes boxes gets them.
+template <class Prior>
+auto give_boxes(Prior& prior, const ClipFrame& frame, int) -> decltype(prior.detections = frame.detections, void()) {
+  prior.detections = frame.detections;
+}
+template <class Prior>
+void give_boxes(Prior&, const ClipFrame&, long) {}
+
+}  // namespace detail
+
+/// Does to a clip what a host does before its tracking.
+template <class Policies>
+class FilterRun {
+ public:
+  explicit FilterRun(const Clip& clip) : clip_(clip), filter_(clip.camera) {}
+
+  /// Outside of what is timed: forgets the frames, and sees the first, with which there is nothing to compare.
+  void begin() {
+    filter_.reset();
+    filter(0);
+  }
+
+  /// @param i  from 1, the frames in their order
+  const FrameResult& filter(std::size_t i) {
+    const ClipFrame& frame = clip_.frames[i];
+    detail::give_boxes(filter_.prior, frame, 0);
+    return filter_.filter_frame(frame.view(), frame.keypoints);
+  }
+
+ private:
+  const Clip& clip_;
+  FrameFilter<Policies> filter_;
+};
+
+}  // namespace stillpoint::bench

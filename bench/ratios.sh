@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# bench/ratios.sh [FOLDER [REPETITIONS [FRAMES]]]: our times beside OpenCV's, one line each: name ours_ms theirs_ms ratio.
+# FOLDER is a sequence in the layout of the TUM benchmark with camera.yaml and boxes.txt, unless told
+# ../shared/data/kitchen_walk; where there is none, a synthetic scene is measured. Lines that begin with # explain.
+set -euo pipefail
+here=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+folder=$PWD/../shared/data/kitchen_walk
+if (($# > 0)); then
+  case $1 in /*) folder=$1 ;; *) folder=$here/$1 ;; esac
+  shift
+fi
+
+bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libbenchmark-dev \
+  < /dev/null >&2
+
+cmake -S . -B build/ratios -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \
+  -DSTILLPOINT_BUILD_EXAMPLES=OFF > /dev/null
+cmake --build build/ratios --target stillpoint_ratios >&2
+exec build/ratios/bench/stillpoint_ratios "$folder" "$@"

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What moves together?   Neighbours on one surface share their evidence; features without evidence take it from them.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "stillpoint/cluster/k_means.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// Gives every feature the log-odds of this frame, evidence minus threshold. All features are clustered, inside and
+/// outside of regions, by K-means in coordinates in which noise is round; a cluster with two populations is split.
+class SurfaceClusters {
+ public:
+  struct Options {
+    std::size_t features_per_cluster = 20;
+    std::size_t fewest_clusters = 2;
+    std::size_t fewest_members = 3;  ///< of each part of a split
+    int max_iterations = 5;
+    double extent_px = 40.0;              ///< what one unit of the clusters' lateral coordinates is in the image
+    double depth_extent_m = 0.0436;       ///< and of the depth coordinate, at the nearest depth …
+    double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond `nearest_m`: three Kinect sigmas
+    double nearest_m = 0.4;
+    float lowest = -2.0f, highest = 10.0f;  ///< a single score is held between these, nats
+    float own_share = 0.3f;        ///< of a feature's own score in its log-odds; the rest is its cluster's mean
+    float split_variance = 9.0f;   ///< a cluster whose scores vary less is one population, squared nats
+    float split_explained = 0.8f;  ///< share of the variance that two populations must explain
+    float neighbour_px = 25.0f;    ///< how far a feature without evidence looks for others
+    float neighbour_share = 0.7f;  ///< of their log-odds it takes over
+    float alone = -1.0f;           ///< log-odds of a feature that knows nothing and has no neighbours
+    float dynamic_shift = 0.6f;    ///< what a dynamic region adds to the log-odds
+    float movable_shift = 0.2f;
+    float fixed_shift = -0.3f;
+    std::uint64_t seed = Random::kDefaultSeed;
+  };
+  Options options;
+
+  void classify(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
+                const Regions& regions, span<Label> labels, Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const span<float> common = workspace.take<float>(matches.size(), kNone);
+    share_in_clusters(matches, scores, regions, labels, common, workspace);
+    const PixelGrid grid(matches.current.pixel, options.neighbour_px, workspace,
+                         [&](std::size_t i) { return !std::isnan(common[i]); });
+    const auto level = static_cast<float>(threshold.level);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      Label& label = labels[i];
+      if (!std::isnan(common[i])) {
+        const float own = scores[i].scored() ? held(scores[i]) : common[i];
+        label.log_odds = options.own_share * own + (1 - options.own_share) * common[i] - level;
+        label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
+      } else {
+        label.log_odds = from_neighbours(matches.current.pixel[i], grid, common, level);
+        label.reason = matches.state[i] == MatchState::outside ? Reason::outside_image : Reason::no_depth;
+      }
+      const Membership& region = regions.of_feature[i];
+      label.log_odds += region.in_dynamic   ? options.dynamic_shift
+                        : region.in_movable ? options.movable_shift
+                        : region.in_fixed   ? options.fixed_shift
+                                            : 0.0f;
+    }
+  }
+
+ private:
+  static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+  float held(const FeatureScore& score) const noexcept {
+    return std::clamp(score.value, options.lowest, options.highest);
+  }
+
+  /// ∫ dz / extent(z) with extent a + b (z − nearest)²: depth in units of its own noise.
+  double whitened_depth(double depth_m) const noexcept {
+    const double a = options.depth_extent_m, b = options.depth_extent_growth;
+    return std::atan((depth_m - options.nearest_m) * std::sqrt(b / a)) / std::sqrt(a * b);
+  }
+
+  /// `common[i]` becomes the mean score of the population of feature i; NaN where it has no depth.
+  void share_in_clusters(const Matches& matches, span<const FeatureScore> scores, const Regions& regions,
+                         span<Label> labels, span<float> common, Workspace& workspace) const {
+    const span<std::uint32_t> member = workspace.take<std::uint32_t>(matches.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      if (matches.current.has_depth(i)) member[count++] = static_cast<std::uint32_t>(i);
+    if (count == 0) return;
+    PointArrays points(count, workspace);
+    for (std::size_t j = 0; j < count; ++j) {
+      const std::size_t i = member[j];
+      constexpr double kApart = 1000.0;  // regions share no cluster
+      const Vector2d lateral = matches.current.pixel[i].cast<double>() / options.extent_px;
+      points.set(j, {lateral.x(), lateral.y(),
+                     whitened_depth(matches.current.depth_m[i]) + kApart * (regions.of_feature[i].dynamic_region + 1)});
+    }
+    const std::size_t wanted = std::max(options.fewest_clusters, count / options.features_per_cluster);
+    Random random(options.seed);
+    const KMeansResult clusters = lloyd(points, k_means_plus_plus(points, std::min(wanted, count), random, workspace),
+                                        options.max_iterations, workspace);
+    const span<std::size_t> begin = workspace.take<std::size_t>(clusters.centre.size() + 1);
+    for (std::size_t c = 0; c < clusters.centre.size(); ++c) begin[c + 1] = begin[c] + clusters.member_count[c];
+    const span<std::size_t> next = workspace.take<std::size_t>(clusters.centre.size());
+    std::copy_n(begin.begin(), next.size(), next.begin());
+    const span<std::uint32_t> sorted = workspace.take<std::uint32_t>(count);
+    for (std::size_t j = 0; j < count; ++j) {
+      sorted[next[static_cast<std::size_t>(clusters.cluster[j])]++] = member[j];
+      labels[member[j]].cluster = clusters.cluster[j];
+    }
+    const span<float> values = workspace.take<float>(count);
+    for (std::size_t c = 0; c < clusters.centre.size(); ++c)
+      share(sorted.subspan(begin[c], begin[c + 1] - begin[c]), scores, values, common);
+  }
+
+  /// Writes the mean of the cluster, or of each of its two populations.
+  void share(span<const std::uint32_t> members, span<const FeatureScore> scores, span<float> values,
+             span<float> common) const {
+    std::size_t count = 0;
+    for (const std::uint32_t i : members)
+      if (scores[i].scored()) values[count++] = held(scores[i]);
+    if (count == 0) return;
+    std::sort(values.begin(), values.begin() + count);
+    const Split split = best_split(values.first(count));
+    for (const std::uint32_t i : members) {
+      if (!scores[i].scored())
+        common[i] = split.mean;
+      else
+        common[i] = held(scores[i]) < split.at ? split.low_mean : split.high_mean;
+    }
+  }
+
+  struct Split {
+    float at;  ///< scores from here on belong to the upper population
+    float low_mean, high_mean, mean;
+  };
+
+  /// Otsu's threshold (IEEE Trans. SMC 1979): the cut with the most variance between its parts. Where two populations
+  /// do not explain the scores, both means are the cluster's.
+  Split best_split(span<const float> sorted) const {
+    const auto n = static_cast<float>(sorted.size());
+    float sum = 0, sum_squares = 0;
+    for (const float value : sorted) {
+      sum += value;
+      sum_squares += value * value;
+    }
+    const float mean = sum / n, variance = sum_squares / n - mean * mean;
+    Split best{0.0f, mean, mean, mean};
+    if (!(variance > options.split_variance)) return best;
+    float below = 0, most = options.split_explained * variance;
+    for (std::size_t k = 1; k < sorted.size(); ++k) {
+      below += sorted[k - 1];
+      if (k < options.fewest_members || sorted.size() - k < options.fewest_members) continue;
+      const auto nk = static_cast<float>(k);
+      const float low = below / nk, high = (sum - below) / (n - nk);
+      const float between = nk * (n - nk) / (n * n) * (high - low) * (high - low);
+      if (!(between > most)) continue;
+      most = between;
+      best = {0.5f * (sorted[k - 1] + sorted[k]), low, high, mean};
+    }
+    return best;
+  }
+
+  float from_neighbours(const Vector2f& pixel, const PixelGrid& grid, span<const float> common, float level) const {
+    const float reach_sq = options.neighbour_px * options.neighbour_px;
+    float weight = 0, sum = 0;
+    grid.within(pixel, options.neighbour_px, [&](std::size_t j, float squared) {
+      const float near = 1 - squared / reach_sq;
+      weight += near * near;
+      sum += near * near * (common[j] - level);
+    });
+    return weight > 0 ? options.neighbour_share * sum / weight : options.alone;
+  }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Points of an image sorted into square cells, for looking up neighbours.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// A grid over a list of pixels; points that are not finite are left out. Lives in the workspace.
+class PixelGrid {
+ public:
+  /// @param accept `bool(std::size_t)`: which points take part
+  template <class Accept>
+  PixelGrid(span<const Vector2f> pixels, float cell_px, Workspace& workspace, const Accept& accept)
+      : pixels_(pixels), cell_px_(cell_px) {
+    Vector2f largest = Vector2f::Zero();
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      if (takes_part(i, accept)) largest = largest.cwiseMax(pixels[i].cwiseMin(kLargest_px));
+    columns_ = static_cast<int>(largest.x() / cell_px) + 1;
+    rows_ = static_cast<int>(largest.y() / cell_px) + 1;
+    begin_ = workspace.take<std::uint32_t>(static_cast<std::size_t>(columns_ * rows_) + 1);
+    index_ = workspace.take<std::uint32_t>(pixels.size());
+    // Counting sort: count, sum up, put in place from behind.
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      if (takes_part(i, accept)) ++begin_[cell(pixels[i])];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& entry : begin_) entry = sum += entry;
+    for (std::size_t i = pixels.size(); i-- > 0;)
+      if (takes_part(i, accept)) index_[--begin_[cell(pixels[i])]] = static_cast<std::uint32_t>(i);
+  }
+
+  /// Calls `visit(index, squared_distance_px)` for every point within `radius_px`, cell by cell, in a fixed order.
+  template <class Visit>
+  void within(const Vector2f& pixel, float radius_px, const Visit& visit) const {
+    if (!pixel.allFinite() || !(pixel.cwiseAbs().maxCoeff() < 2 * kLargest_px)) return;
+    const int u0 = clamped(pixel.x() - radius_px, columns_), u1 = clamped(pixel.x() + radius_px, columns_);
+    const int v0 = clamped(pixel.y() - radius_px, rows_), v1 = clamped(pixel.y() + radius_px, rows_);
+    for (int v = v0; v <= v1; ++v) {
+      const auto row = static_cast<std::size_t>(v * columns_);
+      const std::uint32_t first = begin_[row + static_cast<std::size_t>(u0)];
+      const std::uint32_t last = begin_[row + static_cast<std::size_t>(u1) + 1];
+      for (std::uint32_t k = first; k < last; ++k) {
+        const float squared = (pixels_[index_[k]] - pixel).squaredNorm();
+        if (squared <= radius_px * radius_px) visit(std::size_t{index_[k]}, squared);
+      }
+    }
+  }
+
+ private:
+  static constexpr float kLargest_px = 1e5f;
+
+  template <class Accept>
+  bool takes_part(std::size_t i, const Accept& accept) const {
+    return pixels_[i].allFinite() && accept(i);
+  }
+  int clamped(float coordinate_px, int count) const noexcept {
+    return static_cast<int>(std::clamp(coordinate_px / cell_px_, 0.0f, static_cast<float>(count - 1)));
+  }
+  std::size_t cell(const Vector2f& pixel) const noexcept {
+    return static_cast<std::size_t>(clamped(pixel.y(), rows_) * columns_ + clamped(pixel.x(), columns_));
+  }
+
+  span<const Vector2f> pixels_;
+  float cell_px_;
+  int columns_ = 1, rows_ = 1;
+  span<std::uint32_t> begin_, index_;
+};
+
+}  // namespace stillpoint

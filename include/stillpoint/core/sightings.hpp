@@ -1,0 +1,82 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What older frames show where a standing feature should be.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+enum class SightingState : std::uint8_t {
+  none,      ///< not looked for: no depth, or it would have been outside the picture
+  occluded,  ///< something nearer stood before it: says nothing
+  seen,      ///< its place could be compared
+};
+
+/// One feature in one older frame, looked for where a standing point would have been.
+struct Sighting {
+  SightingState state = SightingState::none;
+  /// 1 − correlation of the most alike patch near by: 0 alike to 2 inverted; NaN: no patch could be compared.
+  float dissimilarity = std::numeric_limits<float>::quiet_NaN();
+  Vector2f found = Vector2f::Zero();  ///< undistorted pixel of that patch
+  float depth_m = 0;                  ///< measured where the point should be, metres, 0 none
+  float depth_sigma_m = 0;
+};
+
+/// A piece of smooth surface of the current frame, a cell of a coarse grid. It counts area where there are no corners.
+struct SurfaceCell {
+  Vector2f pixel;   ///< in the current image
+  Vector3d point;   ///< in the current camera, metres
+  Vector3d normal;  ///< unit length, in the current camera
+  double depth_sigma_m = 0;
+  float trust = 1.0f;  ///< 0 to 1, as `Matches::trust`
+};
+
+/// The surface that an older frame shows in the place of a cell.
+struct SurfaceSighting {
+  Vector3d target = Vector3d::Zero();  ///< in the older camera, metres
+  double depth_sigma_m = 0;            ///< 0: nothing to be seen there
+};
+
+/// Everything that was looked for in one older frame.
+struct OlderFrame {
+  Pose reference_from_current = Pose::Identity();  ///< that was assumed when looking, or a better one since
+  double elapsed_s = 0;                            ///< from that frame to the current one
+  std::vector<Sighting> of_feature;
+  std::vector<SurfaceSighting> of_surface;
+};
+
+/// One entry for each older frame that was looked at, the nearest in time first. Memory is kept from frame to frame.
+class Sightings {
+ public:
+  std::vector<SurfaceCell> surfaces;
+
+  span<OlderFrame> frames() noexcept { return {frames_.data(), count_}; }
+  span<const OlderFrame> frames() const noexcept { return {frames_.data(), count_}; }
+
+  void clear() noexcept {
+    surfaces.clear();
+    count_ = 0;
+  }
+
+  OlderFrame& add(std::size_t feature_count) {
+    if (count_ == frames_.size()) frames_.emplace_back();
+    OlderFrame& frame = frames_[count_++];
+    frame.of_feature.assign(feature_count, Sighting{});
+    frame.of_surface.clear();
+    return frame;
+  }
+
+ private:
+  std::vector<OlderFrame> frames_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Corners of our own, followed from the current frame to the last one, coarse to fine.
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/match/grid_corners.hpp"
+#include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/pyramid.hpp"
+
+namespace stillpoint {
+
+/// Appends support corners, one a grid cell, to the features and finds them in the reference frame. The host's own key
+/// points are not followed: they are looked for later, where the camera's motion puts them.
+class CornerTracker {
+ public:
+  struct Options {
+    int cell_px = 24;               ///< one corner for each cell of this size: 530 cells in 640 × 480
+    float weakest_corner = 600.0f;  ///< least eigenvalue, squared gray levels over 5 × 5 pixels of the half-sized image
+    std::size_t pyramid_levels = 4;  ///< with a reach of 3 px on each: 45 px between two frames
+    float most_dissimilar = 0.3f;    ///< 1 − correlation above which a corner is lost
+    float too_vague = 0.5f;          ///< on a coarse level a fit this bad does not move the start of the next
+    float fewest_pixels = 25;        ///< of a patch's 64 that must lie on the corner's surface
+    float border_px = 8.0f;          ///< nearer to the border than this a match is `near_edge`
+    DepthTolerance same_surface;
+  };
+  Options options;
+
+  void match(const FrameView& reference, const FrameView& current, Matches& matches) {
+    if (!(reference_time_s_ == reference.timestamp_s)) reference_.build(reference.gray, options.pyramid_levels);
+    current_.build(current.gray, options.pyramid_levels);
+    for (std::size_t i = 0; i < matches.host_count; ++i)
+      if (!(border_distance_px(current.gray, matches.current.pixel[i]) >= 0.0f)) matches.state[i] = MatchState::outside;
+    append_corners(matches);
+    for (std::size_t i = matches.host_count; i < matches.size(); ++i) follow(i, current.depth, matches);
+    std::swap(reference_, current_);
+    reference_time_s_ = current.timestamp_s;
+  }
+
+  void reset() noexcept { reference_time_s_ = std::numeric_limits<double>::quiet_NaN(); }
+
+ private:
+  static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
+    return image.border_distance_px(pixel.x(), pixel.y());
+  }
+
+  void append_corners(Matches& matches) {
+    constexpr std::size_t kLevel = 1;  // sharp enough, and a quarter of the pixels
+    if (current_.size() <= kLevel) return;
+    corners_.clear();
+    workspace_.rewind();
+    grid_corners(current_[kLevel], options.cell_px / 2, options.weakest_corner, corners_, workspace_);
+    const std::size_t first = matches.size();
+    matches.resize(first + corners_.size());
+    for (std::size_t c = 0; c < corners_.size(); ++c)
+      matches.current.pixel[first + c] = Pyramid::from_level(corners_[c], kLevel).array().round();
+  }
+
+  void follow(std::size_t i, const DepthView& depth, Matches& matches) const {
+    const Vector2f pixel = matches.current.pixel[i];
+    Vector2f displacement = Vector2f::Zero();
+    Patch patch;
+    PatchFit fit;
+    for (std::size_t level = current_.size(); level-- > 0;) {
+      const Vector2f cut = Pyramid::to_level(pixel, level).array().round();
+      const PatchMask mask = level == 0 ? PatchMask(depth, pixel, options.same_surface) : PatchMask();
+      fit = PatchFit();
+      if (!cut_patch(current_[level], cut, mask, patch)) continue;
+      const float scale = static_cast<float>(std::size_t{1} << level);
+      fit = find_patch(patch, reference_[level], cut + displacement / scale, PatchSearch{});
+      if (fit.inside && (level == 0 || fit.dissimilarity < options.too_vague)) displacement += fit.offset * scale;
+    }
+    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < options.fewest_pixels) return;
+    const Vector2f found = pixel + displacement;
+    const float distance = border_distance_px(reference_[0], found);
+    if (!(distance >= 0.0f)) return;
+    matches.reference.pixel[i] = found;
+    matches.state[i] = distance < options.border_px ? MatchState::near_edge : MatchState::matched;
+  }
+
+  Pyramid reference_, current_;
+  double reference_time_s_ = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Vector2f> corners_;
+  Workspace workspace_;
+};
+
+}  // namespace stillpoint

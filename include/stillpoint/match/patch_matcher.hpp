@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The matcher of `DefaultPolicies`.
+
+#include "stillpoint/match/corner_tracker.hpp"
+#include "stillpoint/match/look_back.hpp"
+
+namespace stillpoint {
+
+/// Support corners one frame back for the ego-motion; then, when the motion is known, every feature in older frames.
+struct PatchMatcher {
+  CornerTracker corners;  ///< its settings are `corners.options`
+  LookBack older;         ///< and `older.options`
+
+  void match(const FrameView& reference, const FrameView& current, Matches& matches) {
+    corners.match(reference, current, matches);
+  }
+
+  /// Fills `matches.sightings`.
+  template <class Camera, class Noise>
+  void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
+                 const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
+    older.look_back(history, current, filter_from_current, camera, noise, matches, workspace);
+  }
+
+  void reset() noexcept { corners.reset(); }
+};
+
+}  // namespace stillpoint

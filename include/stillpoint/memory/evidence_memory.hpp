@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What did we know of this feature, and of this place?   Two memories, from frame to frame.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// Log-odds add up over frames and forget; they give the verdicts. Suspicion is sticky, inherited by new features whose
+/// neighbours on the same surface are suspect by majority, and only lowers the say in the ego-motion: what moved once
+/// and stands still now will drag the pose when it starts again. If suspicion drove verdicts, false alarms would spread
+/// from surface to surface.
+class EvidenceMemory {
+ public:
+  struct Options {
+    float persistence = 0.6f;    ///< share of the log-odds that is left after a frame
+    float most_log_odds = 6.0f;  ///< log-odds are held within ± this
+    float drop_above = 0.0f;     ///< a feature is dynamic above this …
+    float keep_below = -0.5f;    ///< … and stands still again below this, if it was dynamic before
+    float suspect_above = 1.0f;  ///< log-odds that make a feature suspect
+    float suspicion_persistence = 0.99f;
+    float least_trust = 0.05f;   ///< say of a feature of full suspicion
+    float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
+    float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
+    float minority = 0.25f;      ///< share of suspect neighbours below which none is handed on; above 1 − this, all
+    double surface_m = 0.06;     ///< depths that differ less are one surface …
+    double surface_per_square_m = 0.0076;  ///< … and this much more per square metre of depth
+  };
+  Options options;
+
+  /// Looks every feature up in what is remembered, and fills `matches.trust`.
+  void recall(Matches& matches, Workspace& workspace) {
+    recalled_.assign(matches.size(), Memory{});
+    if (pixel_.empty()) return;
+    const Workspace::Scope scope(workspace);
+    const PixelGrid grid(pixel_, options.neighbour_px, workspace, [](std::size_t) { return true; });
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : matches.current.pixel[i];
+      recalled_[i] = look_up(grid, pixel, matches.current.depth_m[i]);
+      matches.trust[i] = trust(recalled_[i].suspicion);
+    }
+  }
+
+  /// The same for the surface cells, when they have been found.
+  void recall_surfaces(Matches& matches, Workspace& workspace) const {
+    if (pixel_.empty()) return;
+    const Workspace::Scope scope(workspace);
+    const PixelGrid grid(pixel_, options.neighbour_px, workspace, [](std::size_t) { return true; });
+    for (SurfaceCell& cell : matches.sightings.surfaces)
+      cell.trust = trust(look_up(grid, cell.pixel, cell.point.z()).suspicion);
+  }
+
+  /// Adds this frame's log-odds to what is remembered, and decides.
+  void update(const Matches& matches, const Motion&, span<const FeatureScore>, span<Label> labels, Workspace&) {
+    pixel_ = matches.current.pixel;
+    depth_m_ = matches.current.depth_m;
+    memory_.resize(matches.size());
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const Memory before = recalled_[i];
+      Label& label = labels[i];
+      const float now = label.log_odds;
+      label.log_odds =
+          std::clamp(options.persistence * before.log_odds + now, -options.most_log_odds, options.most_log_odds);
+      decide(label, now, before.log_odds > options.drop_above);
+      memory_[i].log_odds = label.log_odds;
+      memory_[i].suspicion = label.log_odds > options.suspect_above ? 1.0f : before.suspicion;
+    }
+  }
+
+  void reset() noexcept {
+    pixel_.clear();
+    depth_m_.clear();
+    memory_.clear();
+    recalled_.clear();
+  }
+
+ private:
+  struct Memory {
+    float log_odds = 0;
+    float suspicion = 0;  ///< 0 to 1
+  };
+
+  float trust(float suspicion) const noexcept { return 1.0f - (1.0f - options.least_trust) * suspicion; }
+
+  Memory look_up(const PixelGrid& grid, const Vector2f& pixel, double depth_m) const {
+    const double tolerance_m = options.surface_m + options.surface_per_square_m * depth_m * depth_m;
+    const float feature_sq = options.feature_px * options.feature_px,
+                reach_sq = options.neighbour_px * options.neighbour_px;
+    float feature_weight = 0, log_odds = 0, weight = 0, suspicion = 0;
+    grid.within(pixel, options.neighbour_px, [&](std::size_t j, float squared) {
+      const bool both = depth_m > 0 && depth_m_[j] > 0;
+      if (both && std::abs(depth_m - depth_m_[j]) > tolerance_m) return;
+      const float near = 1 - squared / reach_sq;
+      weight += near;
+      suspicion += near * memory_[j].suspicion;
+      if (!(squared < feature_sq)) return;
+      constexpr float kOtherKind = 0.2f;  // one with a depth, one without: perhaps the same surface
+      const bool same_kind = (depth_m > 0) == (depth_m_[j] > 0);
+      const float same = (1 - squared / feature_sq) * (1 - squared / feature_sq) * (same_kind ? 1.0f : kOtherKind);
+      feature_weight += same;
+      log_odds += same * memory_[j].log_odds;
+    });
+    Memory memory;
+    if (feature_weight > 0) memory.log_odds = log_odds / feature_weight;
+    if (weight > 0) {
+      const float majority = (suspicion / weight - options.minority) / (1 - 2 * options.minority);
+      memory.suspicion = options.suspicion_persistence * std::clamp(majority, 0.0f, 1.0f);
+    }
+    return memory;
+  }
+
+  void decide(Label& label, float now, bool was_dynamic) const noexcept {
+    const bool dynamic = label.log_odds > (was_dynamic ? options.keep_below : options.drop_above);
+    label.keep = !dynamic;
+    label.probability = 1.0f / (1.0f + std::exp(-label.log_odds));
+    const bool knows = label.reason == Reason::consistent || label.reason == Reason::neighbours;
+    label.verdict = dynamic ? Verdict::dynamic : knows ? Verdict::kept : Verdict::unknown;
+    if (!dynamic) return;
+    if (!(now > 0))
+      label.reason = Reason::remembered;
+    else
+      label.reason = label.reason == Reason::consistent ? Reason::inconsistent : Reason::neighbours;
+  }
+
+  std::vector<Vector2f> pixel_;
+  std::vector<double> depth_m_;
+  std::vector<Memory> memory_, recalled_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What the support corners and surfaces say of the camera's motion, with their noise and their weight.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/reprojection_refinement.hpp"
+
+namespace stillpoint {
+
+/// Makes constraints of matches. Support is by area: one corner a grid cell, and a grid of surface cells.
+struct SupportConstraints {
+  double pixel_sigma = 0.6;       ///< of a followed corner, pixels
+  double depth_sigmas = 1.5;      ///< measured depth noise over the model's
+  double depth_floor_m = 0.003;   ///< and what is left when the model's is nothing
+  double depthless_spread = 0.5;  ///< standard deviation of an unknown inverse depth, of the median one
+  double dynamic_trust = 0.15;    ///< weight of what lies in a dynamic region
+  double movable_trust = 0.6;     ///< and in a movable one
+  double surface_weight = 0.3;    ///< of a surface cell: depth errors of neighbours are not independent
+  float most_dissimilar = 0.25f;  ///< a sighting that is less alike says nothing of the motion
+
+  /// The matches with the reference frame. `features[k]` is the feature of constraint k.
+  template <class Camera>
+  span<PointConstraint> from_matches(const Matches& matches, const Regions& regions, const Camera& camera,
+                                     span<std::uint32_t> features, Workspace& workspace) const {
+    const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
+    const double typical_m = median_depth_m(matches, workspace);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (!matches.matched(i)) continue;
+      features[count] = static_cast<std::uint32_t>(i);
+      points[count++] = from_match(matches, regions, i, typical_m, camera);
+    }
+    return points.first(count);
+  }
+
+  /// The support corners' sightings in all older frames, and the matches of those without a depth.
+  template <class Camera>
+  span<PointConstraint> from_sightings(const Matches& matches, const Regions& regions, const Camera& camera,
+                                       Workspace& workspace) const {
+    const span<const OlderFrame> frames = matches.sightings.frames();
+    const std::size_t corners = matches.size() - matches.host_count;
+    const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
+    const double typical_m = median_depth_m(matches, workspace);
+    std::size_t count = 0;
+    for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
+      for (std::size_t f = 0; f < frames.size(); ++f) {
+        const Sighting& sighting = frames[f].of_feature[i];
+        if (sighting.state != SightingState::seen || !(sighting.dissimilarity < most_dissimilar)) continue;
+        points[count++] =
+            at_depth(matches, regions, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),
+                     static_cast<double>(sighting.depth_sigma_m), f);
+      }
+      if (matches.matched(i) && !matches.current.has_depth(i))
+        points[count++] = from_match(matches, regions, i, typical_m, camera);
+    }
+    return points.first(count);
+  }
+
+  span<PlaneConstraint> from_surfaces(const Matches& matches, Workspace& workspace) const {
+    const span<const OlderFrame> frames = matches.sightings.frames();
+    const span<PlaneConstraint> planes =
+        workspace.take<PlaneConstraint>(matches.sightings.surfaces.size() * frames.size());
+    std::size_t count = 0;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      for (std::size_t s = 0; s < matches.sightings.surfaces.size(); ++s) {
+        const SurfaceCell& cell = matches.sightings.surfaces[s];
+        const SurfaceSighting& sighting = frames[f].of_surface[s];
+        if (!(sighting.depth_sigma_m > 0)) continue;
+        PlaneConstraint& plane = planes[count++];
+        plane.point = cell.point;
+        plane.target = sighting.target;
+        plane.normal = frames[f].reference_from_current.linear() * cell.normal;
+        // Depth noise points along the optical axis: the plane sees its share along the normal.
+        plane.sigma_m =
+            depth_sigma_m(cell.depth_sigma_m, sighting.depth_sigma_m) * std::abs(cell.normal.z()) + depth_floor_m;
+        plane.weight = surface_weight * static_cast<double>(cell.trust);
+        plane.frame = f;
+      }
+    }
+    return planes.first(count);
+  }
+
+ private:
+  double depth_sigma_m(double here_m, double there_m) const noexcept {
+    return depth_sigmas * std::hypot(here_m, there_m);
+  }
+
+  double weight(const Matches& matches, const Regions& regions, std::size_t i) const noexcept {
+    const Membership& region = regions.of_feature[i];
+    return static_cast<double>(matches.trust[i]) * (region.in_dynamic   ? dynamic_trust
+                                                    : region.in_movable ? movable_trust
+                                                                        : 1.0);
+  }
+
+  PointConstraint at_depth(const Matches& matches, const Regions& regions, std::size_t i, const Vector2d& pixel,
+                           double seen_depth_m, double seen_sigma_m, std::size_t frame) const {
+    const double z = matches.current.depth_m[i];
+    PointConstraint point;
+    point.point = matches.current.point[i];
+    point.inverse_depth_sigma = matches.current.depth_sigma_m[i] / (z * z);
+    point.pixel = pixel;
+    point.pixel_sigma = pixel_sigma;
+    point.depth_m = seen_depth_m;
+    if (seen_depth_m > 0)
+      point.depth_sigma_m = depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + depth_floor_m;
+    point.weight = weight(matches, regions, i);
+    point.frame = frame;
+    return point;
+  }
+
+  template <class Camera>
+  PointConstraint from_match(const Matches& matches, const Regions& regions, std::size_t i, double typical_m,
+                             const Camera& camera) const {
+    const Observations& seen = matches.reference;
+    if (matches.current.has_depth(i))
+      return at_depth(matches, regions, i, seen.undistorted[i], seen.depth_m[i], seen.depth_sigma_m[i], 0);
+    PointConstraint point;
+    point.point = camera.back_project(matches.current.undistorted[i], typical_m);
+    point.inverse_depth_sigma = depthless_spread / typical_m;
+    point.pixel = seen.undistorted[i];
+    point.pixel_sigma = pixel_sigma;
+    point.weight = weight(matches, regions, i);
+    return point;
+  }
+
+  static double median_depth_m(const Matches& matches, Workspace& workspace) {
+    const Workspace::Scope scope(workspace);
+    const span<double> depths = workspace.take<double>(matches.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      if (matches.current.has_depth(i)) depths[count++] = matches.current.depth_m[i];
+    constexpr double kRoom_m = 2.0;  // a guess for a scene without any depth
+    return count > 0 ? median_in_place(depths.first(count)) : kRoom_m;
+  }
+};
+
+}  // namespace stillpoint

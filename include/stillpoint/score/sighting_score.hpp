@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How badly does a feature disagree with the camera's motion?   Evidence from every older frame in which it was looked
+// for: where its patch was found, how alike it looks, what depth was there.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+/// Each older frame gives a log-likelihood ratio, moving against standing. A standing point's whitened distance is
+/// Gaussian in its core with a heavy tail; a Gaussian contaminated by a flat share ε has −log p = min(d² / 2, −log ε):
+/// evidence saturates, no single sighting decides. The score is the mean of the two frames that object most: one bad
+/// sighting is a reflection or an edge, two are motion.
+class SightingScore {
+ public:
+  struct Options {
+    double pixel_sigma = 0.7;           ///< of a found patch, pixels
+    double drift_px_per_s = 1.5;        ///< what chained poses and rolling shutter add with time
+    double depth_sigmas = 1.5;          ///< measured depth noise over the model's
+    double depth_floor_m = 0.004;       ///< and what is left when the model's is nothing
+    double dissimilarity_scale = 0.12;  ///< 1 − correlation that a standing patch exceeds with probability 1/e
+    double most_from_place = 8.0;       ///< −log ε of the found place, nats
+    double most_from_look = 6.0;        ///< of the dissimilarity
+    double most_from_depth = 8.0;       ///< of the depth
+    double expected_patch = 1.5;        ///< what a standing point scores by place and look on average
+    double expected_depth = 1.0;        ///< and by depth
+    double unseen = -3.0;               ///< a frame that says nothing speaks for standing still
+  };
+  Options options;
+
+  /// Features without any sighting keep NaN.
+  template <class Camera>
+  void score(const Matches& matches, const Motion& motion, const Camera& camera, span<FeatureScore> scores) const {
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      double most = options.unseen, second = options.unseen;
+      bool seen = false;
+      for (const OlderFrame& frame : matches.sightings.frames()) {
+        const Sighting& sighting = frame.of_feature[i];
+        if (sighting.state != SightingState::seen) continue;
+        seen = true;
+        const double evidence = evidence_of(sighting, frame, matches, i, motion, camera);
+        second = std::max(second, std::min(most, evidence));
+        most = std::max(most, evidence);
+      }
+      if (seen) scores[i].value = static_cast<float>(0.5 * (most + second));
+    }
+  }
+
+ private:
+  /// What the pose's own uncertainty moves a pixel, the same in all directions: f² (σ_ω² + σ_v² / z²).
+  static double pose_variance_sq_px(const Motion& motion, double depth_m, double focal_px) noexcept {
+    const double rotation = motion.covariance.topLeftCorner<3, 3>().trace() / 3.0;
+    const double translation = motion.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
+    return focal_px * focal_px * (rotation + translation / (depth_m * depth_m));
+  }
+
+  template <class Camera>
+  double evidence_of(const Sighting& sighting, const OlderFrame& frame, const Matches& matches, std::size_t i,
+                     const Motion& motion, const Camera& camera) const {
+    const Vector3d there = frame.reference_from_current * matches.current.point[i];
+    double evidence = 0;
+    if (std::isfinite(sighting.dissimilarity)) {
+      const double sigma = options.pixel_sigma + options.drift_px_per_s * frame.elapsed_s;
+      const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
+      const double squared = (camera.project(there) - sighting.found.cast<double>()).squaredNorm() / variance;
+      const double look = static_cast<double>(sighting.dissimilarity) / options.dissimilarity_scale;
+      evidence += std::min(0.5 * squared, options.most_from_place) + std::min(look, options.most_from_look) -
+                  options.expected_patch;
+    }
+    if (sighting.depth_m > 0) {
+      const double sigma = options.depth_sigmas * std::hypot(matches.current.depth_sigma_m[i],
+                                                             static_cast<double>(sighting.depth_sigma_m)) +
+                           options.depth_floor_m;
+      const double error = (static_cast<double>(sighting.depth_m) - there.z()) / sigma;
+      evidence += std::min(0.5 * error * error, options.most_from_depth) - options.expected_depth;
+    }
+    return evidence;
+  }
+};
+
+}  // namespace stillpoint
