@@ -21,23 +21,26 @@ namespace {
 
 constexpr std::size_t kFrames = 10;
 
-enum Source : int { kSynthetic, kRecorded };
+/// The argument: whether the clip is the recording kitchen_walk, or the synthetic scene.
+void both_clips(benchmark::internal::Benchmark* b) {
+  b->ArgName("recorded")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+}
 
 /// Null, and the benchmark says so, where there is no recording.
-const Clip* clip(benchmark::State& state, Source source) {
+const Clip* clip(benchmark::State& state) {
   static const Clip kSyntheticClip = synthetic_clip(kFrames);
   static const std::filesystem::path kFolder = STILLPOINT_SHARED_DATA "/kitchen_walk";
   static const std::optional<Clip> kRecordedClip =
       is_recorded_clip(kFolder) ? std::optional(recorded_clip(kFolder, kFrames)) : std::nullopt;
-  if (source == kSynthetic) return &kSyntheticClip;
+  if (state.range(0) == 0) return &kSyntheticClip;
   if (kRecordedClip) return &*kRecordedClip;
   state.SkipWithError(("skipped: no camera.yaml and boxes.txt in " + kFolder.string()).c_str());
   return nullptr;
 }
 
 template <class Policies>
-void BM_FilterFrame(benchmark::State& state, Source source) {
-  const Clip* const frames = clip(state, source);
+void BM_FilterFrame(benchmark::State& state) {
+  const Clip* const frames = clip(state);
   if (frames == nullptr) return;
   FilterRun<Policies> run(*frames);
   run.begin();
@@ -61,13 +64,11 @@ void BM_FilterFrame(benchmark::State& state, Source source) {
   state.counters["kept_share"] = kept / features;
   state.counters["without_matching_ms"] = benchmark::Counter(without_matching_ms, average);
 }
-BENCHMARK_CAPTURE(BM_FilterFrame<PaperPolicies>, synthetic, kSynthetic)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_FilterFrame<PaperPolicies>, kitchen_walk, kRecorded)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_FilterFrame<PaperRigidPolicies>, synthetic, kSynthetic)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_FilterFrame<PaperRigidPolicies>, kitchen_walk, kRecorded)->Unit(benchmark::kMillisecond);
+BENCHMARK_TEMPLATE(BM_FilterFrame, PaperPolicies)->Apply(both_clips);
+BENCHMARK_TEMPLATE(BM_FilterFrame, PaperRigidPolicies)->Apply(both_clips);
 
-void BM_Orb_OpenCV(benchmark::State& state, Source source) {
-  const Clip* const frames = clip(state, source);
+void BM_Orb_OpenCV(benchmark::State& state) {
+  const Clip* const frames = clip(state);
   if (frames == nullptr) return;
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
   std::vector<cv::KeyPoint> keypoints;
@@ -79,8 +80,7 @@ void BM_Orb_OpenCV(benchmark::State& state, Source source) {
     benchmark::DoNotOptimize(keypoints.data());
   }
 }
-BENCHMARK_CAPTURE(BM_Orb_OpenCV, synthetic, kSynthetic)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(BM_Orb_OpenCV, kitchen_walk, kRecorded)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_Orb_OpenCV)->Apply(both_clips);
 
 }  // namespace
 }  // namespace stillpoint::bench
