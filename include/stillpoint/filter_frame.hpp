@@ -134,7 +134,7 @@ class FrameFilter : private PolicyContract<Policies> {
     timings.run(Stage::match, [&] {
       matcher.look_back(history_, frame, filter_from(motion), camera, depth_noise, matches_, workspace_);
     });
-    if constexpr (recalls<Memory>::value)
+    if constexpr (recalls_surfaces<Memory>::value)
       timings.run(Stage::memory, [&] { memory.recall_surfaces(matches_, workspace_); });
     if constexpr (refines<EgoMotion, Camera>::value)
       timings.run(Stage::motion, [&] { ego_motion.refine(matches_, regions_, camera, motion, workspace_); });

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A camera that cannot say how large its image is.
-// expected: stillpoint: Policies::Camera must offer project(Vector3d) -> Vector2d, back_project(Vector2d, double) -> Vector3d, distort and undistort(Vector2d) -> Vector2d, width() and height() -> int; see core/camera.hpp
+// expected: stillpoint: Policies::Camera must offer Vector2d project(const Vector3d&) const, Vector3d back_project(const Vector2d&, double) const, Vector2d distort(const Vector2d&) const, Vector2d undistort(const Vector2d&) const, int width() const and int height() const; see core/camera.hpp
 
 #include "sound_policies.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A matcher that does not ask for the reference frame.
-// expected: stillpoint: Policies::Matcher must offer void match(const FrameView& reference, const FrameView& current, Matches&); see match/provided_matches.hpp
+// expected: stillpoint: Policies::Matcher must offer void match(const FrameView& reference, const FrameView& current, Matches&) and void reset(); see match/provided_matches.hpp
 
 #include "sound_policies.hpp"
 

@@ -35,7 +35,8 @@ template <class P> struct is_prior<P, std::void_t<decltype(std::declval<P&>().re
 
 template <class P, class = void> struct is_matcher : std::false_type {};
 template <class P> struct is_matcher<P, std::void_t<decltype(std::declval<P&>().match(
-    std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<Matches&>()))>> : std::true_type {};
+    std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<Matches&>())),
+    decltype(std::declval<P&>().reset())>> : std::true_type {};
 
 template <class P, class = void> struct is_depth_lookup : std::false_type {};
 template <class P> struct is_depth_lookup<P, std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().at(
@@ -100,6 +101,14 @@ template <class P, class = void> struct recalls : std::false_type {};
 template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
     std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
 
+template <class P, class = void> struct recalls_surfaces : std::false_type {};
+template <class P> struct recalls_surfaces<P, std::void_t<decltype(std::declval<P&>().recall_surfaces(
+    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class Policies, class = void> struct has_history_length : std::false_type {};
+template <class Policies> struct has_history_length<Policies, std::enable_if_t<
+    std::is_integral_v<decltype(Policies::kHistoryLength)> && (Policies::kHistoryLength > 0)>> : std::true_type {};
+
 // clang-format on
 
 /// Instantiated by `FrameFilter`: one readable error for each stage that does not keep its contract.
@@ -108,8 +117,10 @@ struct PolicyContract {
   using Camera = typename Policies::Camera;
   static_assert(
       is_camera<Camera>::value,
-      "stillpoint: Policies::Camera must offer project(Vector3d) -> Vector2d, back_project(Vector2d, double) -> "
-      "Vector3d, distort and undistort(Vector2d) -> Vector2d, width() and height() -> int; see core/camera.hpp");
+      "stillpoint: Policies::Camera must offer Vector2d project(const Vector3d&) const, Vector3d back_project(const "
+      "Vector2d&, double) const, Vector2d distort(const Vector2d&) const, Vector2d undistort(const Vector2d&) const, "
+      "int "
+      "width() const and int height() const; see core/camera.hpp");
   static_assert(
       is_depth_noise<typename Policies::DepthNoise>::value,
       "stillpoint: Policies::DepthNoise must offer double sigma(double depth_m) const; see core/depth_noise.hpp");
@@ -122,7 +133,7 @@ struct PolicyContract {
   static_assert(
       is_matcher<typename Policies::Matcher>::value,
       "stillpoint: Policies::Matcher must offer void match(const FrameView& reference, const FrameView& current, "
-      "Matches&); see match/provided_matches.hpp");
+      "Matches&) and void reset(); see match/provided_matches.hpp");
   static_assert(
       is_ego_motion<typename Policies::EgoMotion, Camera>::value,
       "stillpoint: Policies::EgoMotion must offer Motion estimate(const Matches&, const Regions&, const Camera&, "
@@ -144,6 +155,9 @@ struct PolicyContract {
       is_keep_floor<typename Policies::KeepFloor>::value,
       "stillpoint: Policies::KeepFloor must offer std::size_t apply(span<const Vector2f> pixels, const ImageView&, "
       "span<Label>, Workspace&); see verdict/keep_floor.hpp");
+  static_assert(has_history_length<Policies>::value,
+                "stillpoint: Policies must have static constexpr std::size_t kHistoryLength, 1 or more; see "
+                "policies.hpp");
   static constexpr bool holds = true;
 };
 
