@@ -40,6 +40,7 @@ class LookBack {
     PatchSearch search;
   };
   Options options;
+  GuardedDepth guard;  ///< which depth of an older frame belongs to a pixel?
 
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
@@ -138,7 +139,7 @@ class LookBack {
 
   double depth_at(const FrameView& frame, const Vector2f& pixel) const noexcept {
     if (frame.depth.empty()) return 0.0;
-    return guarded_.at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel));
+    return guard.at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel));
   }
 
   /// How a small step in the current image moves in the older one, for a surface that faces the camera.
@@ -192,8 +193,6 @@ class LookBack {
   }
 
   static constexpr double kNearest_m = 0.1;
-
-  GuardedDepth guarded_;
 };
 
 }  // namespace stillpoint
