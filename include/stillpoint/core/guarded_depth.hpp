@@ -24,7 +24,8 @@ struct GuardedDepth {
 
   /// @return metres, 0 where there is none.
   double at(const DepthView& depth, const Vector2f& pixel) const noexcept {
-    if (!pixel.allFinite()) return 0.0;
+    // Also false for NaN, and for what is too far away for lround.
+    if (!(depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.5f)) return 0.0;
     const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
     if (u < 1 || v < 1 || u + 1 >= depth.image.width || v + 1 >= depth.image.height) return 0.0;
     const auto centre = static_cast<double>(depth.metres(u, v));

@@ -24,8 +24,8 @@ class PixelGrid {
     Vector2f largest = Vector2f::Zero();
     for (std::size_t i = 0; i < pixels.size(); ++i)
       if (takes_part(i, accept)) largest = largest.cwiseMax(pixels[i].cwiseMin(kLargest_px));
-    columns_ = static_cast<int>(largest.x() / cell_px) + 1;
-    rows_ = static_cast<int>(largest.y() / cell_px) + 1;
+    columns_ = std::min(static_cast<int>(largest.x() / cell_px) + 1, kMostCells);
+    rows_ = std::min(static_cast<int>(largest.y() / cell_px) + 1, kMostCells);
     begin_ = workspace.take<std::uint32_t>(static_cast<std::size_t>(columns_ * rows_) + 1);
     index_ = workspace.take<std::uint32_t>(pixels.size());
     // Counting sort: count, sum up, put in place from behind.
@@ -56,6 +56,7 @@ class PixelGrid {
 
  private:
   static constexpr float kLargest_px = 1e5f;
+  static constexpr int kMostCells = 512;  // to a side: the last ones take in what is farther away
 
   template <class Accept>
   bool takes_part(std::size_t i, const Accept& accept) const {
