@@ -10,4 +10,5 @@
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
 #include "stillpoint/prior/mobility_table.hpp"
+#include "stillpoint/verdict/output_modes.hpp"
 #include "stillpoint/version.hpp"
