@@ -41,8 +41,8 @@ class SurfaceClusters {
     float neighbour_px = 25.0f;    ///< how far a feature without evidence looks for others
     float neighbour_share = 0.7f;  ///< of their log-odds it takes over
     float alone = -1.0f;           ///< log-odds of a feature that knows nothing and has no neighbours
-    float dynamic_shift = 0.6f;    ///< what a dynamic region adds to the log-odds
-    float movable_shift = 0.2f;
+    float dynamic_shift = 0.3f;    ///< what a dynamic region adds to the log-odds
+    float movable_shift = 0.1f;
     float fixed_shift = -0.3f;
     std::uint64_t seed = Random::kDefaultSeed;
   };

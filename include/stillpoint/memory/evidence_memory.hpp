@@ -25,13 +25,13 @@ namespace stillpoint {
 class EvidenceMemory {
  public:
   struct Options {
-    float persistence = 0.6f;    ///< share of the log-odds that is left after a frame
+    float persistence = 0.7f;    ///< share of the log-odds that is left after a frame
     float most_log_odds = 6.0f;  ///< log-odds are held within ± this
     float drop_above = 0.0f;     ///< a feature is dynamic above this …
-    float keep_below = -0.5f;    ///< … and stands still again below this, if it was dynamic before
+    float keep_below = -3.0f;    ///< … and stands still again below this, if it was dynamic before
     float suspect_above = 1.0f;  ///< log-odds that make a feature suspect
     float suspicion_persistence = 0.99f;
-    float least_trust = 0.05f;   ///< say of a feature of full suspicion
+    float least_trust = 0.01f;   ///< say of a feature of full suspicion
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
     float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
     float minority = 0.25f;      ///< share of suspect neighbours below which none is handed on; above 1 − this, all

@@ -5,8 +5,6 @@
 // The motion that best explains where points and surfaces were seen in one or more older frames: iteratively reweighted
 // Gauss-Newton on whitened residuals.
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,6 +12,7 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 
@@ -26,6 +25,7 @@ struct PointConstraint {
   double depth_m = 0;                 ///< what the older frame measured there, metres, 0 none
   double depth_sigma_m = 1;           ///< of the difference of both depths
   double weight = 1;                  ///< 0 to 1
+  double trusted_weight = 1;          ///< what it would be if memory suspected nothing
   std::size_t frame = 0;              ///< which older frame
 };
 
@@ -36,6 +36,7 @@ struct PlaneConstraint {
   Vector3d normal = Vector3d::Zero();  ///< of the surface, unit length, in that camera
   double sigma_m = 0.01;               ///< of the distance along the normal
   double weight = 1;
+  double trusted_weight = 1;
   std::size_t frame = 0;
 };
 
@@ -136,7 +137,7 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
     }
     // What nothing is known of stays: a thousandth of a constraint holds it.
     constexpr double kHold = 1e-6;
-    const Vector6d x = -(normal + kHold * Matrix6d::Identity()).ldlt().solve(gradient);
+    const Vector6d x = -Cholesky<6>(normal + kHold * Matrix6d::Identity()).solve(gradient);
     constexpr double kLongestStep = 0.5;  // radians, metres; more is no refinement
     if (!(x.head<3>().norm() < kLongestStep) || !(x.tail<3>().norm() < kLongestStep)) return information;
     Pose step = Pose::Identity();

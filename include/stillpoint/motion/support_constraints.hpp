@@ -20,10 +20,10 @@ namespace stillpoint {
 
 /// Makes constraints of matches. Support is by area: one corner a grid cell, and a grid of surface cells.
 struct SupportConstraints {
-  double pixel_sigma = 0.6;       ///< of a followed corner, pixels
+  double pixel_sigma = 1.0;       ///< of a followed corner, pixels
   double depth_sigmas = 1.5;      ///< measured depth noise over the model's
   double depth_floor_m = 0.003;   ///< and what is left when the model's is nothing
-  double depthless_spread = 0.5;  ///< standard deviation of an unknown inverse depth, of the median one
+  double depthless_spread = 0.3;  ///< standard deviation of an unknown inverse depth, of the median one
   double dynamic_trust = 0.15;    ///< weight of what lies in a dynamic region
   double movable_trust = 0.6;     ///< and in a movable one
   double surface_weight = 0.3;    ///< of a surface cell: depth errors of neighbours are not independent
@@ -84,6 +84,7 @@ struct SupportConstraints {
         // Depth noise points along the optical axis: the plane sees its share along the normal.
         plane.sigma_m =
             depth_sigma_m(cell.depth_sigma_m, sighting.depth_sigma_m) * std::abs(cell.normal.z()) + depth_floor_m;
+        plane.trusted_weight = surface_weight;
         plane.weight = surface_weight * static_cast<double>(cell.trust);
         plane.frame = f;
       }
@@ -96,11 +97,11 @@ struct SupportConstraints {
     return depth_sigmas * std::hypot(here_m, there_m);
   }
 
-  double weight(const Matches& matches, const Regions& regions, std::size_t i) const noexcept {
+  void set_weight(PointConstraint& point, const Matches& matches, const Regions& regions,
+                  std::size_t i) const noexcept {
     const Membership& region = regions.of_feature[i];
-    return static_cast<double>(matches.trust[i]) * (region.in_dynamic   ? dynamic_trust
-                                                    : region.in_movable ? movable_trust
-                                                                        : 1.0);
+    point.trusted_weight = region.in_dynamic ? dynamic_trust : region.in_movable ? movable_trust : 1.0;
+    point.weight = point.trusted_weight * static_cast<double>(matches.trust[i]);
   }
 
   PointConstraint at_depth(const Matches& matches, const Regions& regions, std::size_t i, const Vector2d& pixel,
@@ -114,7 +115,7 @@ struct SupportConstraints {
     point.depth_m = seen_depth_m;
     if (seen_depth_m > 0)
       point.depth_sigma_m = depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + depth_floor_m;
-    point.weight = weight(matches, regions, i);
+    set_weight(point, matches, regions, i);
     point.frame = frame;
     return point;
   }
@@ -130,7 +131,7 @@ struct SupportConstraints {
     point.inverse_depth_sigma = depthless_spread / typical_m;
     point.pixel = seen.undistorted[i];
     point.pixel_sigma = pixel_sigma;
-    point.weight = weight(matches, regions, i);
+    set_weight(point, matches, regions, i);
     return point;
   }
 

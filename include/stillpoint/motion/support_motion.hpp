@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -34,10 +35,11 @@ class SupportMotion {
  public:
   struct Options {
     double inlier_sigmas = 4.0;     ///< beyond it a match supports a hypothesis no more
-    int trials = 100;               ///< samples of three points; half static gives (1 − 0.5³)¹⁰⁰ < 2e-6 to miss
+    int trials = 60;                ///< samples of three points; half static gives (1 − 0.5³)⁶⁰ < 4e-4 to miss
     double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
     double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
     double least_support = 0.08;    ///< share of all weight that the motion must explain
+    double undisputed_share = 0.985;  ///< suspects count in full while the trusted lose no more of their support
     std::size_t fewest_matches = 6;
     std::uint64_t seed = Random::kDefaultSeed;
   };
@@ -62,7 +64,8 @@ class SupportMotion {
     const bool differ =
         sampled.support > past.support && distance_px(sampled, past, points, camera) > options.same_motion_px;
     const bool inverted = differ && past.support > options.past_preference * sampled.support;
-    const Hypothesis& chosen = sampled.support > past.support && !inverted ? sampled : past;
+    const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
+    const Hypothesis chosen = with_suspects(trusted, points, camera);
 
     double weight = 0;
     for (const PointConstraint& point : points) weight += point.weight;
@@ -90,8 +93,18 @@ class SupportMotion {
     const span<Pose> poses = workspace.take<Pose>(frames.size(), Pose::Identity());
     for (std::size_t f = 0; f < frames.size(); ++f) poses[f] = frames[f].reference_from_current;
     constexpr std::array<double, 3> kCutoffs{4.0, 3.0, 3.0};
-    const Matrix6d information = refine_reprojection(points, planes, poses, kCutoffs, camera);
+    const span<Pose> with_suspects = workspace.take<Pose>(frames.size(), Pose::Identity());
+    std::copy(poses.begin(), poses.end(), with_suspects.begin());
+    Matrix6d information = refine_reprojection(points, planes, poses, kCutoffs, camera);
     if (information.isZero()) return;
+    swap_trust(points, planes);
+    const Matrix6d of_all = refine_reprojection(points, planes, with_suspects, kCutoffs, camera);
+    swap_trust(points, planes);
+    const double least = options.undisputed_share * support(poses, points, camera, 0.0);
+    if (!of_all.isZero() && support(with_suspects, points, camera, 0.0) > least) {
+      std::copy(with_suspects.begin(), with_suspects.end(), poses.begin());
+      information = of_all;
+    }
     const Pose step = poses[0].inverse() * frames[0].reference_from_current;  // new current from old current
     motion.current_from_reference = orthonormalized(step * motion.current_from_reference);
     motion.covariance = covariance(information);
@@ -105,6 +118,23 @@ class SupportMotion {
     double support = 0;  ///< Σ weight · (1 − squared residual / limit) over the inliers
   };
 
+  /// To the weights as if nothing were suspect; a second call goes back.
+  static void swap_trust(span<PointConstraint> points, span<PlaneConstraint> planes) noexcept {
+    for (PointConstraint& point : points) std::swap(point.weight, point.trusted_weight);
+    for (PlaneConstraint& plane : planes) std::swap(plane.weight, plane.trusted_weight);
+  }
+
+  /// The motion with suspects in full, where the trusted do not object: what was seen moving is parked, and its points
+  /// are as good as any. Where they object, the trusted hypothesis as it is.
+  template <class Camera>
+  Hypothesis with_suspects(const Hypothesis& trusted, span<PointConstraint> points, const Camera& camera) const {
+    swap_trust(points, {});
+    Hypothesis all = polish(trusted.reference_from_current, points, camera);
+    swap_trust(points, {});
+    all.support = support(span<const Pose>(&all.reference_from_current, 1), points, camera, 0.0);
+    return all.support > options.undisputed_share * trusted.support ? all : trusted;
+  }
+
   static bool any_depth(const Matches& matches) noexcept {
     return std::any_of(matches.current.depth_m.begin(), matches.current.depth_m.end(), [](double d) { return d > 0; });
   }
@@ -115,18 +145,19 @@ class SupportMotion {
     Hypothesis hypothesis;
     hypothesis.information = refine_reprojection(points, {}, span<Pose>(&reference_from_current, 1), kCutoffs, camera);
     hypothesis.reference_from_current = reference_from_current;
-    hypothesis.support = support(reference_from_current, points, camera, 0.0);
+    hypothesis.support = support(span<const Pose>(&reference_from_current, 1), points, camera, 0.0);
     return hypothesis;
   }
 
   /// @param to_beat  counting ends where this cannot be reached any more
   template <class Camera>
-  double support(const Pose& pose, span<const PointConstraint> points, const Camera& camera, double to_beat) const {
+  double support(span<const Pose> poses, span<const PointConstraint> points, const Camera& camera,
+                 double to_beat) const {
     const double limit = options.inlier_sigmas * options.inlier_sigmas;
     double left = 0, sum = 0;
     for (const PointConstraint& point : points) left += point.weight;
     for (const PointConstraint& point : points) {
-      sum += point.weight * std::max(0.0, 1.0 - squared_residual(point, pose, camera) / limit);
+      sum += point.weight * std::max(0.0, 1.0 - squared_residual(point, poses[point.frame], camera) / limit);
       left -= point.weight;
       if (sum + left < to_beat) return 0.0;
     }
@@ -148,7 +179,7 @@ class SupportMotion {
     for (int trial = 0; trial < options.trials; ++trial) {
       const std::optional<Pose> pose = sample(matches, points, features, metric.first(count), random);
       if (!pose) continue;
-      const double found = support(*pose, points, camera, to_beat);
+      const double found = support(span<const Pose>(&*pose, 1), points, camera, to_beat);
       if (!(found > to_beat)) continue;
       to_beat = found;
       best = pose;
