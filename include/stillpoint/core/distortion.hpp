@@ -37,7 +37,7 @@ struct BrownConrady {
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Vector2d error = distort(ideal) - distorted;
       if (error.squaredNorm() < 1e-24) break;
-      const Vector2d step = jacobian(ideal).partialPivLu().solve(error);
+      const Vector2d step = jacobian(ideal).inverse() * error;
       if (!step.allFinite() || step.norm() > 1.0) break;
       ideal -= step;
     }

@@ -15,6 +15,7 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/candidates.hpp"
 #include "stillpoint/motion/essential.hpp"
@@ -33,7 +34,7 @@ namespace stillpoint {
 /// | status                | when                                                                                     |
 /// |-----------------------|------------------------------------------------------------------------------------------|
 /// | `too_few_matches`     | fewer than 8 candidates                                                                  |
-/// | `rotation_only`       | within `min_parallax_px` a rotation explains nearly what F explains, or half of all      |
+/// | `rotation_only`       | within the matches' noise a rotation explains nearly what F explains, or half of all     |
 /// |                       | where there is no F: the pose has t = 0, a smaller translation can't be told             |
 /// | `degenerate_geometry` | the candidates coincide or lie on a line, or the inliers on one plane                    |
 /// | `no_consensus`        | no F explains 8 and `min_inlier_share` of the candidates, or none with them in front     |
@@ -49,12 +50,13 @@ class EpipolarMotion {
     double confidence = 0.99;       ///< of having drawn a sample without an outlier
     std::size_t max_trials = 1000;  ///< OpenCV's; with 7 points enough for 47 % inliers
     double min_inlier_share = 0.2;  ///< of the candidates
-    double min_parallax_px = 0.5;   ///< what matchers leave as noise; 0: never `rotation_only`
-    double rotation_share = 0.8;    ///< of what F explains within `min_parallax_px`: two axes of noise against one
-    double planar_share = 0.9;    ///< of the inliers on one plane (within 3 `threshold_px`): degenerate; > 1: not asked
-    std::size_t min_depths = 3;   ///< inliers with depth at both ends that give t its length
-    double pixel_sigma_px = 1.0;  ///< of a match, for the noise of the scale
-    bool printed_eq3 = false;     ///< E = K F Kᵀ, as printed
+    double noise_sigmas = 3.0;      ///< within so many of the matches' own standard deviations ...
+    double min_parallax_px = 0.5;   ///< ... and at most so far off, a simpler motion explains them; 0: is not asked
+    double rotation_share = 0.8;    ///< of what F explains: `rotation_only`; two axes of noise against one
+    double planar_share = 0.9;      ///< of the inliers on one plane: degenerate; > 1: not asked
+    std::size_t min_depths = 3;     ///< inliers with depth at both ends that give t its length
+    double pixel_sigma_px = 1.0;    ///< of a match, for the noise of the scale
+    bool printed_eq3 = false;       ///< E = K F Kᵀ, as printed
     bool unit_translation = false;  ///< leaves ‖t‖ = 1, as printed: Eq. 6 then has a false offset
     std::uint64_t seed = Random::kDefaultSeed;
   };
@@ -141,12 +143,32 @@ class EpipolarMotion {
     return result;
   }
 
-  /// Matches that a rotation explains within `min_parallax_px`.
+  /// How far off a simpler motion may leave a match before that is parallax and not noise. F's own residuals tell the
+  /// noise (median absolute deviation: half of the candidates may move), so that a step of millimetres is not taken for
+  /// a rotation where the matches are good.
+  /// @param f nothing: there is no F, and the threshold stands for the noise
+  template <class Estimator>
+  double noise_px(const Estimator& estimator, const Matrix3d* f, Workspace& workspace) const {
+    constexpr double kLeastNoise_px = 0.01;  // single precision, and what an exact test scene leaves
+    double sigma_px = options.threshold_px;
+    if (f != nullptr) {
+      const Workspace::Scope scope(workspace);
+      const span<double> squared = workspace.take<double>(estimator.size());
+      for (std::size_t i = 0; i < squared.size(); ++i) {
+        const auto residual = static_cast<double>(estimator.squared_residual(*f, i));
+        squared[i] = residual >= 0.0 ? residual : std::numeric_limits<double>::infinity();  // NaN on the epipole
+      }
+      sigma_px = kMadToSigma * std::sqrt(median_in_place(squared));
+    }
+    return std::min(options.noise_sigmas * std::max(sigma_px, kLeastNoise_px), options.min_parallax_px);
+  }
+
+  /// Matches that a rotation explains within `noise` pixels.
   template <class Camera>
-  RansacReport<Matrix3d> rotation(const Pairs& pairs, const Camera& camera, Workspace& workspace) const {
-    if (!(options.min_parallax_px > 0.0)) return {};
+  RansacReport<Matrix3d> rotation(const Pairs& pairs, const Camera& camera, double noise, Workspace& workspace) const {
+    if (!(noise > 0.0)) return {};
     const RotationEstimator<Camera> estimator(pairs.reference_ray, pairs.current_ray, camera);
-    RansacOptions settings = ransac_options(options.min_parallax_px);
+    RansacOptions settings = ransac_options(noise);
     settings.max_trials = std::min(settings.max_trials, required_trials(0.5, 2, options.confidence, 1000));
     return ransac<InlierCountSupport>(estimator, settings, workspace);
   }
@@ -168,25 +190,22 @@ class EpipolarMotion {
   template <class MinimalSolver, class Camera>
   void estimate_with(const Matches& matches, Pairs pairs, const Camera& camera, Motion& motion,
                      Workspace& workspace) const {
-    const auto turn = rotation(pairs, camera, workspace);
-    const auto turn_explains = [&](double share, std::size_t of) {
-      return turn.success && static_cast<double>(turn.inliers) >= share * static_cast<double>(of);
-    };
-    if (turn_explains(options.rotation_share, pairs.size()))
-      return conclude_rotation(matches, pairs, turn, camera, motion);
     const FundamentalEstimator<MinimalSolver> estimator(pairs.reference, pairs.current, workspace);
     const auto report = ransac(estimator, ransac_options(options.threshold_px), workspace);
     motion.inliers = static_cast<int>(report.inliers);
     motion.status = report.degenerate == report.trials ? Status::degenerate_geometry : Status::no_consensus;
     const double least = options.min_inlier_share * static_cast<double>(pairs.size());
     const bool found = report.inliers >= kLeastMatches && static_cast<double>(report.inliers) >= least;
-    if (found ? turn_explains(options.rotation_share, explained(estimator, report.model))
-              : turn_explains(0.5, pairs.size()))
+    const double noise = noise_px(estimator, found ? &report.model : nullptr, workspace);
+    const auto turn = rotation(pairs, camera, noise, workspace);
+    const double enough = found ? options.rotation_share * explained(estimator, report.model, noise)
+                                : 0.5 * static_cast<double>(pairs.size());
+    if (turn.success && static_cast<double>(turn.inliers) >= enough)
       return conclude_rotation(matches, pairs, turn, camera, motion);
     if (!found) return;
     const Matrix3d f = estimator.in_pixels(report.model);
     pairs.keep(report.inlier);
-    if (planar(pairs, f, workspace)) {
+    if (planar(pairs, f, std::min(noise, options.threshold_px), workspace)) {
       motion.status = Status::degenerate_geometry;
       return;
     }
@@ -197,19 +216,19 @@ class EpipolarMotion {
     give_length(matches, pairs, cheiral.current_from_reference, camera, motion, workspace);
   }
 
-  /// How many matches F explains within `min_parallax_px`.
+  /// How many matches F explains within `noise` pixels.
   template <class Estimator>
-  std::size_t explained(const Estimator& estimator, const Matrix3d& model) const {
-    const double most = options.min_parallax_px * options.min_parallax_px;
-    std::size_t count = 0;
+  static double explained(const Estimator& estimator, const Matrix3d& model, double noise) {
+    double count = 0.0;
     for (std::size_t i = 0; i < estimator.size(); ++i)
-      count += static_cast<double>(estimator.squared_residual(model, i)) <= most;
+      count += static_cast<double>(estimator.squared_residual(model, i)) <= noise * noise ? 1.0 : 0.0;
     return count;
   }
 
-  /// Does one plane's homography explain nearly all inliers?
-  bool planar(const Pairs& pairs, const Matrix3d& f, Workspace& workspace) const {
-    if (!(options.planar_share <= 1.0)) return false;
+  /// Does one plane's homography explain nearly all inliers within `noise` pixels? The wider that is, the more steps of
+  /// a few millimetres in a room look flat, although their F is good enough for a pose.
+  bool planar(const Pairs& pairs, const Matrix3d& f, double noise, Workspace& workspace) const {
+    if (!(options.planar_share <= 1.0) || !(noise > 0.0)) return false;
     const Normalization from_reference{span<const Vector2d>(pairs.reference)};
     const Normalization from_current{span<const Vector2d>(pairs.current)};
     const span<Vector2d> reference = workspace.take<Vector2d>(pairs.size(), Vector2d::Zero());
@@ -220,7 +239,7 @@ class EpipolarMotion {
     }
     const Matrix3d normalised = from_current.matrix().inverse().transpose() * f * from_reference.matrix().inverse();
     const PlaneEstimator estimator(reference, current, normalised / normalised.norm(), 1.0 / from_current.scale);
-    RansacOptions settings = ransac_options(3.0 * options.threshold_px);
+    RansacOptions settings = ransac_options(noise);
     settings.max_trials = std::min(settings.max_trials, required_trials(options.planar_share, 3, 0.9999, 1000));
     const auto report = ransac<InlierCountSupport>(estimator, settings, workspace);
     return static_cast<double>(report.inliers) >= options.planar_share * static_cast<double>(pairs.size());

@@ -5,7 +5,6 @@
 // The fundamental matrix of eight or more matches: normalised, linear, then made singular.
 // Source: Hartley, "In Defense of the Eight-Point Algorithm", PAMI 1997.
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
 
 #include <array>
@@ -14,6 +13,7 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 
@@ -70,11 +70,11 @@ class FundamentalNormalEquations {
         for (int k = 0; k < 3; ++k)
           for (int l = 0; l < 3; ++l) normal(3 * i + j, 3 * k + l) = sums_(kPair[i][k], kPair[j][l]);
     if (!normal.allFinite()) return false;
-    const Eigen::SelfAdjointEigenSolver<Matrix9d> eigen(normal);
+    const SymmetricEigen<9> eigen(normal);
     // The eigenvalues are squared singular values: rounding leaves about 1e-15 of the largest.
     constexpr double kRankTolerance = 1e-13;
-    if (!(eigen.eigenvalues()(1) > kRankTolerance * eigen.eigenvalues()(8))) return false;
-    const Vector9d solution = eigen.eigenvectors().col(0);
+    if (!(eigen.value(1) > kRankTolerance * eigen.value(8))) return false;
+    const Vector9d solution = eigen.vector(0);
     f = nearest_singular(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(solution.data()));
     const double norm = f.norm();
     f /= norm;

@@ -4,12 +4,12 @@
 
 // The fundamental matrix with the least geometric error, from one that is near.
 
-#include <Eigen/Cholesky>
 #include <Eigen/SVD>
 
 #include <cmath>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 
@@ -52,9 +52,8 @@ class FundamentalRefinement {
 
   /// Moves to the least squares solution of the linearised problem. @return false, unmoved, if there is none
   bool step() {
-    const Eigen::LDLT<Matrix7d> factors(sums_.topRows<7>());
-    const Vector7d update = -factors.solve(sums_.row(7).transpose());
-    if (factors.info() != Eigen::Success || !update.allFinite() || !(update.norm() < 1.0)) return false;
+    const Vector7d update = -Cholesky<7>(sums_.topRows<7>()).solve(sums_.row(7).transpose());
+    if (!(update.norm() < 1.0)) return false;  // NaN where the matches do not determine it
     u_ *= rotation_from_vector(update.head<3>());
     v_ *= rotation_from_vector(update.segment<3>(3));
     phi_ += update(6);
@@ -63,7 +62,6 @@ class FundamentalRefinement {
   }
 
  private:
-  using Matrix7d = Eigen::Matrix<double, 7, 7>;
   using Vector7d = Eigen::Matrix<double, 7, 1>;
 
   Vector3d singular_values() const { return {std::cos(phi_), std::sin(phi_), 0.0}; }

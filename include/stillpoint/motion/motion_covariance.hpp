@@ -4,14 +4,13 @@
 
 // How well do matches in pixels determine a motion?   First order, in the coordinates of `Motion::covariance`.
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 
@@ -65,7 +64,7 @@ class PixelInformation {
       along.tail<3>() = pose_.translation() / (length * length_sigma_m);
       information += along * along.transpose();
     }
-    return information.ldlt().solve(Matrix6d::Identity());
+    return Cholesky<6>(information).inverse();
   }
 
  private:

@@ -4,8 +4,6 @@
 
 // The rigid motion between two sets of 3D points as RANSAC sees it, with the noise of a depth camera.
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +16,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
+#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 
@@ -72,7 +71,7 @@ class RigidNormalEquations {
 
   /// The pose one step nearer to the minimum; nothing when the pairs do not determine it.
   std::optional<Pose> step() const {
-    const Vector6d update = information_.ldlt().solve(right_);
+    const Vector6d update = Cholesky<6>(information_).solve(right_);
     if (!update.allFinite()) return std::nullopt;
     Pose pose = Pose::Identity();
     const Matrix3d turn = rotation_from_vector(update.head<3>());
@@ -83,12 +82,9 @@ class RigidNormalEquations {
 
   /// Of (ω, v), rad and m; nothing when it is not positive definite.
   std::optional<Matrix6d> covariance() const {
-    const Eigen::LLT<Matrix6d> factors(information_);
-    if (factors.info() != Eigen::Success) return std::nullopt;
-    Matrix6d covariance = factors.solve(Matrix6d::Identity());
-    covariance = 0.5 * (covariance + covariance.transpose().eval());
-    if (!covariance.allFinite() || !(covariance.diagonal().minCoeff() > 0.0)) return std::nullopt;
-    return covariance;
+    const Cholesky<6> factors(information_);
+    if (!factors.positive_definite()) return std::nullopt;
+    return factors.inverse();
   }
 
  private:

@@ -125,6 +125,21 @@ TEST(EpipolarMotion, StandingCameraAndPureRotationAreNamedAndHaveNoTranslation) 
   }
 }
 
+TEST(EpipolarMotion, AStepOfMillimetresIsNoRotationWhereMatchesAreGood) {
+  // Parallax 525 · 0.004 / z = 0.5 to 2 px: a rotation that takes the mean over leaves less than 0.5 px on most.
+  const Pose step = test::pose_of({0.002, -0.001, 0.001}, {0.004, 0.001, -0.001});
+  SceneOptions scene;
+  scene.pixel_noise_px = 0.02;
+  scene.near_m = 1.5;
+  int judged_whole = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Random random(seed);
+    const Motion motion = estimate(EpipolarMotion{}, test::make_matches(step, scene, random));
+    judged_whole += motion.status == Status::ok && test::translation_error(motion.current_from_reference, step) < 0.002;
+  }
+  EXPECT_GE(judged_whole, 19);
+}
+
 TEST(EpipolarMotion, DegenerateScenesAreNamed) {
   Random random(6);
   SceneOptions plane;
