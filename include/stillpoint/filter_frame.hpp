@@ -58,11 +58,13 @@ class FrameFilter : private PolicyContract<Policies> {
   const FrameResult& filter_frame(const FrameView& host_frame, const Keypoints& keypoints) {
     result_.begin(read_pixels(keypoints), camera.width(), camera.height());
     Status& status = result_.status_ = frame_check(host_frame, last_timestamp_s_, camera);
-    if (FrameCheck::rejects(status)) return result_;
-    if (status != Status::ok) reset();
-    const FrameView frame = with_gray(host_frame);
-    if (status == Status::ok) status = pixels_.empty() ? Status::no_keypoints : judge(frame);
-    remember(frame);
+    if (!FrameCheck::rejects(status)) {
+      if (status != Status::ok) reset();
+      const FrameView frame = with_gray(host_frame);
+      if (status == Status::ok) status = pixels_.empty() ? Status::no_keypoints : judge(frame);
+      remember(frame);
+    }
+    if (!judged(status)) result_.motion_.status = status;
     return result_;
   }
 
@@ -71,7 +73,7 @@ class FrameFilter : private PolicyContract<Policies> {
   void feedback(const Pose& world_from_camera) {
     if (!world_from_camera.matrix().allFinite()) return;
     world_from_last_ = world_from_camera;
-    if (world_from_second_last_) expect_motion(orthonormalized(world_from_camera.inverse() * *world_from_second_last_));
+    if (world_from_second_last_) last_motion_ = orthonormalized(world_from_camera.inverse() * *world_from_second_last_);
   }
 
   /// What an IMU or wheels say of the coming motion; holds for the next frame. A pose that is not finite is none.
@@ -87,6 +89,7 @@ class FrameFilter : private PolicyContract<Policies> {
     last_timestamp_s_.reset();
     world_from_last_.reset();
     world_from_second_last_.reset();
+    last_motion_.reset();
     motion_prior_ = MotionPrior{};
     filter_from_camera_ = Pose::Identity();
   }
@@ -96,6 +99,9 @@ class FrameFilter : private PolicyContract<Policies> {
     const FrameView reference = history_.back(1).view();
     Motion& motion = result_.motion_;
     Timings& timings = result_.timings_;
+    if (!motion_prior_.current_from_reference && last_motion_)
+      motion_prior_.current_from_reference =
+          scaled(*last_motion_, (frame.timestamp_s - *last_timestamp_s_) / last_interval_s_);
     workspace_.rewind();
     matches_.begin(pixels_);
 
@@ -153,11 +159,13 @@ class FrameFilter : private PolicyContract<Policies> {
     else
       history_.clear();  // the older frames' poses are not known from here
     history_.push(frame, filter_from_camera_);
+    if (last_timestamp_s_) last_interval_s_ = frame.timestamp_s - *last_timestamp_s_;
     last_timestamp_s_ = frame.timestamp_s;
     world_from_second_last_ = world_from_last_;
     world_from_last_.reset();
     motion_prior_ = MotionPrior{};
-    if (motion.usable()) motion_prior_.current_from_reference = motion.current_from_reference;
+    last_motion_.reset();
+    if (motion.usable()) last_motion_ = motion.current_from_reference;
   }
 
   template <class Keypoints>
@@ -186,7 +194,9 @@ class FrameFilter : private PolicyContract<Policies> {
   Matches matches_;
   Workspace workspace_;
   FrameResult result_;
-  MotionPrior motion_prior_;
+  MotionPrior motion_prior_;         // what the host expects of the coming frame
+  std::optional<Pose> last_motion_;  // else the velocity holds: what was done within last_interval_s_
+  double last_interval_s_ = 0.0;
   Pose filter_from_camera_ = Pose::Identity();
   std::optional<Pose> world_from_last_, world_from_second_last_;  // the host's poses of the last two frames
   std::optional<double> last_timestamp_s_;

@@ -42,6 +42,16 @@ inline double rotation_angle(const Matrix3d& rotation) {
   return std::atan2(axis_sine.norm(), rotation.trace() - 1.0);
 }
 
+/// A share of a small motion, to first order: rotation angle and translation times `factor`.
+inline Pose scaled(const Pose& motion, double factor) {
+  if (std::abs(factor - 1.0) < 1e-6) return motion;  // evenly spaced frames: rounding of their time stamps only
+  const Eigen::AngleAxisd turn(motion.linear());
+  Pose result = Pose::Identity();
+  result.linear() = rotation_from_vector(factor * turn.angle() * turn.axis());
+  result.translation() = factor * motion.translation();
+  return result;
+}
+
 /// The same pose with its rotation made orthonormal again: products of many poses, and `inverse()` (which transposes),
 /// drift away from it.
 inline Pose orthonormalized(const Pose& pose) {
