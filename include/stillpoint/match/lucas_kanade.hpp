@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -29,9 +30,9 @@ class LucasKanade {
     int iterations = 30;               ///< at most, on each level (OpenCV's default)
     float precision_px = 0.01f;        ///< smaller steps end the iteration (OpenCV's default)
     float forward_backward_px = 1.0f;  ///< a match that does not come back this near is lost; 0: not checked
-    float border_px = 10.0f;           ///< nearer to the image border a feature stays out of ego-motion
+    float border_px = 10.0f;           ///< nearer to either image's border a feature stays out of ego-motion
   };
-  Options options;
+  Options options;  ///< out of range, the nearest that OpenCV bears is taken
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
     if (!remembers(reference)) build_pyramid(reference, reference_pyramid_);
@@ -44,8 +45,8 @@ class LucasKanade {
     }
     std::swap(reference_pyramid_, current_pyramid_);
     reference_time_s_ = current.timestamp_s;
-    reference_window_px_ = options.window_px;
-    reference_levels_ = options.pyramid_levels;
+    reference_window_px_ = window_px();
+    reference_levels_ = pyramid_levels();
   }
 
   void reset() noexcept { reference_time_s_ = std::numeric_limits<double>::quiet_NaN(); }
@@ -55,23 +56,25 @@ class LucasKanade {
 
   /// The last frame's pyramid is the reference's, made with the options of now.
   bool remembers(const FrameView& reference) const noexcept {
-    return reference_time_s_ == reference.timestamp_s && reference_window_px_ == options.window_px &&
-           reference_levels_ == options.pyramid_levels;
+    return reference_time_s_ == reference.timestamp_s && reference_window_px_ == window_px() &&
+           reference_levels_ == pyramid_levels();
   }
 
-  cv::Size window() const { return {options.window_px, options.window_px}; }
+  // OpenCV throws for windows below 3 pixels and for negative levels; a filter does not.
+  int window_px() const noexcept { return std::clamp(options.window_px, 3, 255); }
+  int pyramid_levels() const noexcept { return std::clamp(options.pyramid_levels, 0, 16); }
+  cv::Size window() const { return {window_px(), window_px()}; }
 
   void build_pyramid(const FrameView& frame, Pyramid& pyramid) const {
-    cv::buildOpticalFlowPyramid(as_mat(frame.gray), pyramid, window(), options.pyramid_levels, true,
-                                cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+    cv::buildOpticalFlowPyramid(as_mat(frame.gray), pyramid, window(), pyramid_levels(), true, cv::BORDER_REFLECT_101,
+                                cv::BORDER_CONSTANT, false);
   }
 
   void track(const Pyramid& from_image, const Pyramid& to_image, const std::vector<cv::Point2f>& from,
              std::vector<cv::Point2f>& to, std::vector<unsigned char>& found) const {
     const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, options.iterations,
                                 static_cast<double>(options.precision_px));
-    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), options.pyramid_levels,
-                             stop);
+    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), pyramid_levels(), stop);
   }
 
   /// Key points outside the image or not finite are never handed to OpenCV.
@@ -91,10 +94,11 @@ class LucasKanade {
 
   void scatter(const FrameView& reference, const FrameView& current, Matches& matches) const {
     for (std::size_t k = 0; k < feature_.size(); ++k) {
-      const bool inside = reference.gray.border_distance_px(to_[k].x, to_[k].y) >= 0.0f;
-      if (found_[k] == 0 || !inside || !comes_back(k)) continue;
+      const float there = reference.gray.border_distance_px(to_[k].x, to_[k].y);
+      if (found_[k] == 0 || !(there >= 0.0f) || !comes_back(k)) continue;
       matches.reference.pixel[feature_[k]] = {to_[k].x, to_[k].y};
-      const bool near_edge = current.gray.border_distance_px(from_[k].x, from_[k].y) < options.border_px;
+      const float here = current.gray.border_distance_px(from_[k].x, from_[k].y);
+      const bool near_edge = std::min(here, there) < options.border_px;
       matches.state[feature_[k]] = near_edge ? MatchState::near_edge : MatchState::matched;
     }
   }

@@ -68,7 +68,21 @@ TEST_F(ProvidedMatchesTest, NearTheBorderFeaturesAreMarked) {
                                  MatchState::near_edge, MatchState::matched};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(matches.state[i], expected[i]) << i;
   matcher_.options.border_px = 0;
+  matcher_.reference_pixels = pixels;
   for (const MatchState state : match(pixels).state) EXPECT_EQ(state, MatchState::matched);
+}
+
+TEST_F(ProvidedMatchesTest, NearTheBorderOfTheReferenceIsMarkedToo) {
+  matcher_.reference_pixels = {{9.9f, 30}, {10, 30}};
+  const Matches matches = match({{40, 30}, {40, 30}});
+  EXPECT_EQ(matches.state[0], MatchState::near_edge);
+  EXPECT_EQ(matches.state[1], MatchState::matched);
+}
+
+TEST_F(ProvidedMatchesTest, TracksAreUsedOnce) {
+  matcher_.reference_pixels = {{20, 20}};
+  EXPECT_EQ(match({{21, 20}}).state[0], MatchState::matched);
+  EXPECT_EQ(match({{22, 20}}).state[0], MatchState::lost) << "these were the tracks of the frame before";
 }
 
 TEST_F(ProvidedMatchesTest, ResetForgetsTheTracks) {
