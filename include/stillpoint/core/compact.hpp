@@ -46,8 +46,9 @@ struct compaction_traits<
   static void shrink(Matrix& m, std::size_t size) { m.conservativeResize(static_cast<Index>(size), m.cols()); }
 };
 
-/// A row matrix in the manner of `cv::Mat`: `rows`, `rowRange`, `row(i).copyTo`. The header is narrowed to the kept
-/// rows: its memory is not given back, and other headers that share it see its rows moved.
+/// A row matrix in the manner of `cv::Mat`: `rows`, `rowRange`, `row(i).copyTo`, `resize`. The header is narrowed to
+/// the kept rows, none of which leaves columns and type: its memory is not given back, and other headers that share it
+/// see its rows moved.
 template <class Matrix>
 struct compaction_traits<Matrix, typename detail::void_if_valid<decltype(std::declval<Matrix&>().rowRange(0, 0)),
                                                                 decltype(std::declval<Matrix&>().row(0).copyTo(
@@ -57,7 +58,7 @@ struct compaction_traits<Matrix, typename detail::void_if_valid<decltype(std::de
     auto target = m.row(static_cast<int>(to));
     m.row(static_cast<int>(from)).copyTo(target);
   }
-  static void shrink(Matrix& m, std::size_t size) { m = m.rowRange(0, static_cast<int>(size)); }
+  static void shrink(Matrix& m, std::size_t size) { m.resize(size); }
 };
 
 namespace detail {

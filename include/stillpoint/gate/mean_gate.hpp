@@ -16,7 +16,8 @@
 namespace stillpoint {
 
 /// φ = mean of Th over the features outside dynamic boxes, outliers removed (Eq. 10). The paper names no outlier rule;
-/// ours: a score more than `outlier_sigmas` × 1.4826 MAD above the median is left out.
+/// ours: a score more than `outlier_sigmas` × 1.4826 MAD above the median is left out. Only above: what is trimmed is a
+/// mover that no box covers, and nothing disagrees too little.
 class MeanGate {
  public:
   struct Options {

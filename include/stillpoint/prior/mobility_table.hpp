@@ -50,8 +50,9 @@ class MobilityTable {
   }
 
   Mobility operator[](std::string_view class_name) const {
+    const std::string wanted = normalized(class_name);
     for (const auto& [name, mobility] : entries_)
-      if (name == normalized(class_name)) return mobility;
+      if (name == wanted) return mobility;
     return Mobility::unknown;
   }
 

@@ -137,6 +137,11 @@ TEST(Compact, MatricesKeepTheirWidthAndType) {
   EXPECT_EQ(descriptors.cols, 8);
   EXPECT_EQ(descriptors.type(), CV_32FC1);
   EXPECT_EQ(points.cols(), 7);
+  compact(Flags{0, 0}, descriptors, points);
+  EXPECT_EQ(descriptors.rows, 0);
+  EXPECT_EQ(descriptors.cols, 8) << "rows can be pushed behind it again";
+  EXPECT_EQ(descriptors.type(), CV_32FC1);
+  EXPECT_EQ(points.cols(), 7);
 }
 
 /// Counts how often an entry is moved or copied.
