@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/motion/support_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "motion_scene.hpp"
+#include "stillpoint/core/policy_traits.hpp"
+
+namespace stillpoint {
+namespace {
+
+using test::SceneOptions;
+using test::TestCamera;
+
+static_assert(is_ego_motion<SupportMotion, TestCamera>::value);
+static_assert(refines<SupportMotion, TestCamera>::value);
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const Pose kMotion = test::pose_of({0.02, -0.03, 0.01}, {0.03, -0.02, 0.03});
+
+Regions regions_of(const Matches& matches) {
+  Regions regions;
+  regions.of_feature.assign(matches.size(), Membership{});
+  return regions;
+}
+
+SupportMotion policy() {
+  SupportMotion policy;
+  policy.options.trials = 100;
+  policy.options.past_preference = 0.35;
+  policy.options.fewest_matches = 6;
+  policy.options.least_support = 0.08;
+  return policy;
+}
+
+Motion estimate(const Matches& matches, const MotionPrior& prior = {}, const SupportMotion& motion = policy()) {
+  Workspace workspace;
+  return motion.estimate(matches, regions_of(matches), test::test_camera(), prior, workspace);
+}
+
+Matches scene_of(const Pose& truth, std::uint64_t seed, double noise_px = 0.0, double mover_share = 0.0,
+                 const Pose& mover = Pose::Identity()) {
+  Random random(seed);
+  SceneOptions scene;
+  scene.pixel_noise_px = noise_px;
+  scene.mover_share = mover_share;
+  scene.mover = mover;
+  return test::make_matches(truth, scene, random);
+}
+
+TEST(SupportMotion, KnownMotionsComeBack) {
+  const Pose stands = Pose::Identity(), turns = test::pose_of({0.03, -0.05, 0.02}, Vector3d::Zero());
+  for (const Pose& truth : {stands, turns, kMotion}) {
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const Motion motion = estimate(scene_of(truth, seed));
+      ASSERT_EQ(motion.status, Status::ok) << to_string(motion.status);
+      EXPECT_EQ(motion.candidates, 200);
+      EXPECT_EQ(motion.inliers, 200);
+      EXPECT_LT(test::rotation_error(motion.current_from_reference, truth), 1e-6);
+      EXPECT_LT(test::translation_error(motion.current_from_reference, truth), 1e-6);
+    }
+  }
+}
+
+TEST(SupportMotion, NoiseIsAveragedAndTheCovarianceTellsOfIt) {
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Motion motion = estimate(scene_of(kMotion, seed, 0.5));
+    ASSERT_EQ(motion.status, Status::ok);
+    EXPECT_LT(test::rotation_error(motion.current_from_reference, kMotion), 1e-3);
+    EXPECT_LT(test::translation_error(motion.current_from_reference, kMotion), 3e-3);
+    const Vector6d sigma = motion.covariance.diagonal().cwiseSqrt();
+    EXPECT_GT(sigma.minCoeff(), 1e-6);
+    EXPECT_LT(sigma.maxCoeff(), 1e-2);
+  }
+}
+
+// 60 % of the matches move by 6 cm on top. They have more support; the past, that knows the camera's motion, wins.
+TEST(SupportMotion, ThePastWinsAgainstAMajorityThatStartsToMove) {
+  const Pose mover = test::pose_of({0, 0, 0}, {0.06, 0, 0});
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Matches matches = scene_of(kMotion, seed, 0.3, 0.6, mover);
+    const Motion with_past = estimate(matches, MotionPrior{kMotion});
+    EXPECT_EQ(with_past.status, Status::consensus_inverted) << to_string(with_past.status);
+    EXPECT_LT(test::translation_error(with_past.current_from_reference, kMotion), 5e-3) << "seed " << seed;
+    EXPECT_GE(with_past.inliers, 70);
+    EXPECT_LE(with_past.inliers, 100) << "the minority's 80, and a mover that looks alike here and there";
+    const Motion mover_known = estimate(matches, MotionPrior{mover * kMotion});
+    EXPECT_EQ(mover_known.status, Status::ok) << "the majority is the camera's motion where the past says so";
+    EXPECT_LT(test::translation_error(mover_known.current_from_reference, mover * kMotion), 5e-3);
+  }
+}
+
+// 20 against 80 is less than the share of 0.35 that the past needs.
+TEST(SupportMotion, ThePastLosesWhereItExplainsTooLittle) {
+  const Pose mover = test::pose_of({0, 0, 0}, {0.06, 0, 0});
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const Motion motion = estimate(scene_of(kMotion, seed, 0.3, 0.8, mover), MotionPrior{kMotion});
+    EXPECT_EQ(motion.status, Status::ok);
+    EXPECT_LT(test::translation_error(motion.current_from_reference, mover * kMotion), 5e-3);
+  }
+}
+
+// The same 60 %, but known to be doubtful: from memory, or as a dynamic region.
+TEST(SupportMotion, TrustAndRegionsWeigh) {
+  const Pose mover = test::pose_of({0, 0, 0}, {0.06, 0, 0});
+  Workspace workspace;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Matches matches = scene_of(kMotion, seed, 0.3, 0.6, mover);
+    Regions regions = regions_of(matches);
+    for (std::size_t i = 0; i < 120; ++i) regions.of_feature[i].in_dynamic = true;
+    SupportMotion with_regions = policy();
+    with_regions.constraints.dynamic_trust = 0.1;
+    const Motion by_region = with_regions.estimate(matches, regions, test::test_camera(), {}, workspace);
+    EXPECT_EQ(by_region.status, Status::ok);
+    EXPECT_LT(test::translation_error(by_region.current_from_reference, kMotion), 5e-3);
+    for (std::size_t i = 0; i < 120; ++i) matches.trust[i] = 0.1f;
+    const Motion by_trust = estimate(matches);
+    EXPECT_EQ(by_trust.status, Status::ok);
+    EXPECT_LT(test::translation_error(by_trust.current_from_reference, kMotion), 5e-3);
+  }
+}
+
+TEST(SupportMotion, SaysWhyThereIsNone) {
+  EXPECT_EQ(estimate(Matches()).status, Status::too_few_matches);
+  Matches few = scene_of(kMotion, 1);
+  for (std::size_t i = 5; i < few.size(); ++i) few.state[i] = MatchState::lost;
+  EXPECT_EQ(estimate(few).status, Status::too_few_matches);
+  EXPECT_EQ(estimate(few).candidates, 5);
+  EXPECT_FALSE(estimate(few).usable());
+
+  Matches flat = scene_of(kMotion, 2);
+  for (Observations* side : {&flat.current, &flat.reference})
+    for (std::size_t i = 0; i < flat.size(); ++i) side->set_depth(i, 0.0, 0.0, test::test_camera());
+  EXPECT_EQ(estimate(flat).status, Status::no_depth);
+
+  Matches noise = scene_of(kMotion, 3);
+  Random random(4);
+  for (std::size_t i = 0; i < noise.size(); ++i) {
+    noise.reference.undistorted[i] = Vector2d(random.uniform(0, 640), random.uniform(0, 480));
+    noise.reference.set_depth(i, random.uniform(0.5, 8.0), 0.001, test::test_camera());
+  }
+  EXPECT_EQ(estimate(noise).status, Status::no_consensus);
+}
+
+TEST(SupportMotion, MatchesThatAreNotFiniteDoNotSpread) {
+  Matches matches = scene_of(kMotion, 5);
+  for (std::size_t i = 0; i < matches.size(); i += 7) {
+    matches.reference.undistorted[i].setConstant(kNaN);
+    matches.reference.point[i].setConstant(kNaN);
+  }
+  for (std::size_t i = 1; i < matches.size(); i += 7) matches.current.point[i].setConstant(kNaN);
+  const Motion motion = estimate(matches);
+  ASSERT_EQ(motion.status, Status::ok) << to_string(motion.status);
+  EXPECT_LT(test::translation_error(motion.current_from_reference, kMotion), 1e-6);
+  EXPECT_TRUE(motion.covariance.allFinite());
+}
+
+TEST(SupportMotion, EqualSeedsGiveEqualBytes) {
+  const Matches matches = scene_of(kMotion, 6, 0.5, 0.4, test::pose_of({0, 0.02, 0}, {0.05, 0, 0}));
+  const Motion first = estimate(matches), second = estimate(matches);
+  EXPECT_EQ(std::memcmp(first.current_from_reference.data(), second.current_from_reference.data(), sizeof(double) * 16),
+            0);
+  EXPECT_EQ(std::memcmp(first.covariance.data(), second.covariance.data(), sizeof(double) * 36), 0);
+  EXPECT_EQ(first.inliers, second.inliers);
+}
+
+// ---- Refining against older frames ----
+
+/// Support corners that were seen in two older frames where they should be, while the assumed poses are off.
+struct LookedBack {
+  std::array<Pose, 2> truth = {test::pose_of({0.01, 0.02, 0}, {0.03, 0, 0.01}),
+                               test::pose_of({0.03, 0.05, 0.01}, {0.09, -0.01, 0.02})};
+  Pose error = test::pose_of({0.002, -0.001, 0.001}, {0.004, -0.003, 0.002});
+  Matches matches;
+  Motion motion;
+
+  explicit LookedBack(std::size_t corners, bool as_hosts = false) {
+    Random random(1);
+    const auto camera = test::test_camera();
+    matches.begin(std::vector<Vector2f>(as_hosts ? corners : 0));
+    matches.resize(corners);
+    for (std::size_t f = 0; f < 2; ++f) {
+      OlderFrame& frame = matches.sightings.add(corners);
+      frame.reference_from_current = truth[f] * error;
+    }
+    for (std::size_t i = 0; i < corners; ++i) {
+      matches.current.undistorted[i] = {random.uniform(80, 560), random.uniform(80, 400)};
+      matches.current.set_depth(i, random.uniform(1.0, 4.0), 0.005, camera);
+      for (std::size_t f = 0; f < 2; ++f) {
+        Sighting& sighting = matches.sightings.frames()[f].of_feature[i];
+        const Vector3d there = truth[f] * matches.current.point[i];
+        sighting = {SightingState::seen, 0.01f, camera.project(there).cast<float>(), static_cast<float>(there.z()),
+                    0.005f};
+      }
+    }
+    motion.status = Status::ok;
+    motion.current_from_reference = matches.sightings.frames()[0].reference_from_current.inverse();
+  }
+
+  void refine() {
+    Workspace workspace;
+    policy().refine(matches, regions_of(matches), test::test_camera(), motion, workspace);
+  }
+};
+
+TEST(SupportMotion, RefinesAgainstAllOlderFramesAtOnce) {
+  LookedBack scene(60);
+  scene.refine();
+  for (std::size_t f = 0; f < 2; ++f) {
+    EXPECT_LT(test::rotation_error(scene.matches.sightings.frames()[f].reference_from_current, scene.truth[f]), 1e-5);
+    EXPECT_LT(test::translation_error(scene.matches.sightings.frames()[f].reference_from_current, scene.truth[f]),
+              1e-5);
+  }
+  EXPECT_LT(test::translation_error(scene.motion.current_from_reference, scene.truth[0].inverse()), 1e-5)
+      << "the frame to frame motion follows";
+  EXPECT_GT(scene.motion.covariance.diagonal().minCoeff(), 0.0);
+}
+
+TEST(SupportMotion, RefinesByTheFiltersOwnCornersOnly) {
+  LookedBack scene(60, true);
+  const Pose before = scene.motion.current_from_reference;
+  scene.refine();
+  EXPECT_TRUE(scene.motion.current_from_reference.isApprox(before, 0.0)) << "where the host's texture is, counts not";
+}
+
+TEST(SupportMotion, TooFewSightingsLeaveTheMotionAsItIs) {
+  LookedBack scene(5);
+  const Pose before = scene.motion.current_from_reference;
+  scene.refine();
+  EXPECT_TRUE(scene.motion.current_from_reference.isApprox(before, 0.0));
+  LookedBack unlike(60);
+  for (OlderFrame& frame : unlike.matches.sightings.frames())
+    for (Sighting& sighting : frame.of_feature) sighting.dissimilarity = 1.5f;
+  unlike.refine();
+  EXPECT_TRUE(unlike.motion.current_from_reference.isApprox(before, 0.0)) << "what looks different is not support";
+  Matches none;
+  Motion motion;
+  Workspace workspace;
+  policy().refine(none, regions_of(none), test::test_camera(), motion, workspace);
+  EXPECT_TRUE(motion.current_from_reference.isApprox(Pose::Identity(), 0.0));
+}
+
+}  // namespace
+}  // namespace stillpoint
