@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/memory/evidence_memory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/policy_traits.hpp"
+
+namespace stillpoint {
+namespace {
+
+static_assert(is_memory<EvidenceMemory>::value && recalls<EvidenceMemory>::value);
+
+struct Feature {
+  Vector2f pixel;
+  double depth_m = 2.0;
+};
+
+/// Half of the log-odds stay, they are held within ± 6, dynamic above 0 and until below −0.5.
+class EvidenceMemoryTest : public testing::Test {
+ protected:
+  EvidenceMemoryTest() {
+    memory_.options.persistence = 0.5f;
+    memory_.options.most_log_odds = 6.0f;
+    memory_.options.drop_above = 0.0f;
+    memory_.options.keep_below = -0.5f;
+    memory_.options.suspect_above = 1.0f;
+    memory_.options.suspicion_persistence = 0.9f;
+    memory_.options.least_trust = 0.1f;
+    memory_.options.feature_px = 15.0f;
+    memory_.options.neighbour_px = 25.0f;
+    memory_.options.minority = 0.25f;
+    memory_.options.surface_m = 0.06;
+    memory_.options.surface_per_square_m = 0.01;  // 0.1 m at 2 m
+  }
+
+  /// One frame in which the features have these log-odds by themselves.
+  void frame(const std::vector<Feature>& features, const std::vector<float>& log_odds,
+             Reason reason = Reason::consistent) {
+    matches_.begin(std::vector<Vector2f>(features.size()));
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      matches_.current.pixel[i] = features[i].pixel;
+      matches_.current.depth_m[i] = features[i].depth_m;
+    }
+    memory_.recall(matches_, workspace_);
+    labels_.assign(features.size(), Label{});
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      labels_[i].log_odds = log_odds[i];
+      labels_[i].reason = reason;
+    }
+    memory_.update(matches_, Motion{}, {}, labels_, workspace_);
+  }
+  void frame(float log_odds) { frame({{Vector2f(50, 50)}}, {log_odds}); }
+
+  EvidenceMemory memory_;
+  Matches matches_;
+  std::vector<Label> labels_;
+  Workspace workspace_;
+};
+
+constexpr float kRounding = 1e-4f;
+
+// Parked: −2, then −2 + ½ (−2) = −3. It moves: 3 − 1.5 = 1.5, 3 + 0.75 = 3.75. It parks: −2 + 1.875 = −0.125, which is
+// still dynamic, since it was; −2 − 0.0625.
+TEST_F(EvidenceMemoryTest, ParkedMovingParked) {
+  const float now[] = {-2, -2, 3, 3, -2, -2};
+  const float sum[] = {-2, -3, 1.5f, 3.75f, -0.125f, -2.0625f};
+  const bool keep[] = {true, true, false, false, false, true};
+  for (int f = 0; f < 6; ++f) {
+    frame(now[f]);
+    EXPECT_NEAR(labels_[0].log_odds, sum[f], kRounding) << f;
+    EXPECT_EQ(labels_[0].keep, keep[f]) << f;
+    EXPECT_EQ(labels_[0].verdict, keep[f] ? Verdict::kept : Verdict::dynamic) << f;
+    EXPECT_NEAR(labels_[0].probability, 1.0f / (1.0f + std::exp(-sum[f])), kRounding) << f;
+  }
+}
+
+TEST_F(EvidenceMemoryTest, HysteresisHoldsAVerdictBetweenTheTwoLevels) {
+  frame(-0.2f);
+  EXPECT_TRUE(labels_[0].keep) << "from standing, −0.2 is standing";
+  memory_.reset();
+  frame(1.0f);
+  frame(-0.7f);
+  EXPECT_NEAR(labels_[0].log_odds, -0.2f, kRounding);
+  EXPECT_FALSE(labels_[0].keep) << "from moving, −0.2 is moving";
+  frame(0.05f);
+  EXPECT_TRUE(labels_[0].keep) << "−0.05: the frame before was below the upper level, nothing holds it";
+}
+
+TEST_F(EvidenceMemoryTest, SaysWhatDecided) {
+  frame({{Vector2f(50, 50)}, {Vector2f(150, 50)}}, {3, -3});
+  EXPECT_EQ(labels_[0].reason, Reason::inconsistent);
+  EXPECT_EQ(labels_[1].reason, Reason::consistent);
+  frame(-0.5f);
+  EXPECT_FALSE(labels_[0].keep);
+  EXPECT_EQ(labels_[0].reason, Reason::remembered);
+  memory_.reset();
+  frame({{Vector2f(50, 50)}}, {3}, Reason::neighbours);
+  EXPECT_EQ(labels_[0].reason, Reason::neighbours);
+  memory_.reset();
+  frame({{Vector2f(50, 50)}}, {-1}, Reason::no_depth);
+  EXPECT_EQ(labels_[0].verdict, Verdict::unknown);
+  EXPECT_TRUE(labels_[0].keep);
+}
+
+TEST_F(EvidenceMemoryTest, LogOddsAreHeld) {
+  frame(100.0f);
+  EXPECT_EQ(labels_[0].log_odds, 6.0f);
+  memory_.reset();
+  frame(-100.0f);
+  EXPECT_EQ(labels_[0].log_odds, -6.0f);
+}
+
+// 9 px on: the same feature; 15 px and more: another one. On another surface it never is.
+TEST_F(EvidenceMemoryTest, AFeatureIsRecognisedByPlaceAndDepth) {
+  struct Case {
+    Feature feature;
+    float recalled;
+  };
+  for (const Case& c : {Case{{{59, 50}, 2.0}, 2.0f},
+                        {{{65, 50}, 2.0}, 0.0f},
+                        {{{50, 50}, 2.09}, 2.0f},
+                        {{{50, 50}, 2.2}, 0.0f},
+                        {{{50, 50}, 1.8}, 0.0f},
+                        {{{50, 50}, 0.0}, 2.0f}}) {
+    memory_.reset();
+    frame(4.0f);
+    frame({c.feature}, {-0.1f});
+    EXPECT_NEAR(labels_[0].log_odds, c.recalled - 0.1f, kRounding)
+        << c.feature.pixel.transpose() << " " << c.feature.depth_m;
+  }
+}
+
+TEST_F(EvidenceMemoryTest, AMatchedFeatureIsLookedUpWhereItWas) {
+  frame(4.0f);
+  const std::vector<Vector2f> pixels = {{120, 90}};
+  matches_.begin(pixels);
+  matches_.current.depth_m[0] = 2.0;
+  matches_.reference.pixel[0] = {50, 50};
+  matches_.state[0] = MatchState::matched;
+  memory_.recall(matches_, workspace_);
+  labels_.assign(1, Label{});
+  memory_.update(matches_, Motion{}, {}, labels_, workspace_);
+  EXPECT_NEAR(labels_[0].log_odds, 2.0f, kRounding);
+}
+
+TEST_F(EvidenceMemoryTest, ResetForgets) {
+  frame(4.0f);
+  memory_.reset();
+  frame(-0.1f);
+  EXPECT_NEAR(labels_[0].log_odds, -0.1f, kRounding);
+  EXPECT_EQ(matches_.trust[0], 1.0f);
+}
+
+// ---- Suspicion ----
+
+// What moved once is suspect, also when it stands again: its say is 1 − 0.9 · 0.9 in the next frame.
+TEST_F(EvidenceMemoryTest, WhatMovedOnceHasLittleSayForLong) {
+  frame(-2.0f);
+  frame(-2.0f);
+  EXPECT_EQ(matches_.trust[0], 1.0f);
+  frame(5.0f);
+  frame(-6.0f);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  frame(-6.0f);
+  EXPECT_TRUE(labels_[0].keep) << "suspicion drives no verdict";
+  EXPECT_LT(matches_.trust[0], 0.3f);
+}
+
+/// Ten old features round (50, 50) on one surface, all at the same distance, of which `suspects` moved.
+void ring(std::size_t suspects, std::vector<Feature>& features, std::vector<float>& log_odds) {
+  features.clear();
+  log_odds.clear();
+  for (std::size_t k = 0; k < 10; ++k) {
+    const float angle = 0.6283f * static_cast<float>(k);
+    features.push_back({Vector2f(50 + 20 * std::cos(angle), 50 + 20 * std::sin(angle))});
+    log_odds.push_back(k < suspects ? 5.0f : -5.0f);
+  }
+}
+
+// A share p of suspect neighbours hands on (p − ¼) / ½, held within 0 and 1, times 0.9.
+TEST_F(EvidenceMemoryTest, SuspicionIsInheritedByMajority) {
+  for (const auto& [suspects, suspicion] :
+       {std::pair<std::size_t, float>{0, 0.0f}, {2, 0.0f}, {5, 0.45f}, {8, 0.9f}, {10, 0.9f}}) {
+    memory_.reset();
+    std::vector<Feature> features;
+    std::vector<float> log_odds;
+    ring(suspects, features, log_odds);
+    frame(features, log_odds);
+    frame(-1.0f);  // one new feature in the middle, 20 px from each
+    EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * suspicion, 1e-3f) << suspects;
+    EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a new feature inherits no log-odds";
+  }
+}
+
+TEST_F(EvidenceMemoryTest, SuspicionDoesNotJumpToAnotherSurface) {
+  std::vector<Feature> features;
+  std::vector<float> log_odds;
+  ring(10, features, log_odds);
+  frame(features, log_odds);
+  frame({{Vector2f(50, 50), 3.0}}, {-1.0f});
+  EXPECT_EQ(matches_.trust[0], 1.0f);
+}
+
+TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
+  std::vector<Feature> features;
+  std::vector<float> log_odds;
+  ring(10, features, log_odds);
+  frame(features, log_odds);
+  const auto cell = [](float u, double z) {
+    SurfaceCell surface;
+    surface.pixel = {u, 50};
+    surface.point = {0, 0, z};
+    return surface;
+  };
+  matches_.sightings.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
+  memory_.recall_surfaces(matches_, workspace_);
+  EXPECT_NEAR(matches_.sightings.surfaces[0].trust, 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_EQ(matches_.sightings.surfaces[1].trust, 1.0f);
+  EXPECT_EQ(matches_.sightings.surfaces[2].trust, 1.0f);
+}
+
+TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for (int f = 0; f < 3; ++f) {
+    frame({{Vector2f(kNaN, 50)}, {Vector2f(1e30f, 1e30f)}, {Vector2f(-50, -50), 0.0}}, {-1, -1, 2});
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_TRUE(std::isfinite(labels_[i].log_odds));
+      EXPECT_TRUE(std::isfinite(matches_.trust[i]));
+    }
+  }
+  frame({}, {});
+  frame(1.0f);
+  EXPECT_NEAR(labels_[0].log_odds, 1.0f, kRounding);
+}
+
+}  // namespace
+}  // namespace stillpoint

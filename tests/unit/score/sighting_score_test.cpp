@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/score/sighting_score.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/policy_traits.hpp"
+
+namespace stillpoint {
+namespace {
+
+static_assert(is_scorer<SightingScore, Camera>::value);
+
+/// One feature straight ahead at 2 m; a camera of 500 px; round options.
+class SightingScoreTest : public testing::Test {
+ protected:
+  SightingScoreTest() {
+    scorer_.options.pixel_sigma = 1.0;
+    scorer_.options.drift_px_per_s = 2.0;
+    scorer_.options.depth_sigmas = 1.0;
+    scorer_.options.depth_floor_m = 0.0;
+    scorer_.options.dissimilarity_scale = 0.1;
+    scorer_.options.most_from_place = 8.0;
+    scorer_.options.most_from_look = 6.0;
+    scorer_.options.most_from_depth = 7.0;
+    scorer_.options.expected_patch = 1.5;
+    scorer_.options.expected_depth = 1.0;
+    scorer_.options.unseen = -3.0;
+    const std::vector<Vector2f> pixel = {{320, 240}};
+    matches_.begin(pixel);
+    matches_.current.undistorted[0] = {320, 240};
+    matches_.current.set_depth(0, 2.0, 0.03, camera_);
+  }
+
+  /// Another older frame in which the feature was found `away` from its place, at a depth.
+  Sighting& seen(const Vector2f& away, float dissimilarity, float depth_m = 0.0f, double elapsed_s = 0.0) {
+    OlderFrame& frame = matches_.sightings.add(1);
+    frame.reference_from_current.setIdentity();
+    frame.elapsed_s = elapsed_s;
+    frame.of_feature[0] = {SightingState::seen, dissimilarity, Vector2f(320, 240) + away, depth_m, 0.04f};
+    return frame.of_feature[0];
+  }
+
+  float score() {
+    std::vector<FeatureScore> scores(1);
+    scorer_.score(matches_, motion_, camera_, scores);
+    return scores[0].value;
+  }
+
+  /// Two equal sightings: their mean is the evidence of one.
+  float evidence(const Vector2f& away, float dissimilarity, float depth_m = 0.0f, double elapsed_s = 0.0) {
+    matches_.sightings.clear();
+    seen(away, dissimilarity, depth_m, elapsed_s);
+    seen(away, dissimilarity, depth_m, elapsed_s);
+    return score();
+  }
+
+  Camera camera_{500, 500, 320, 240, 640, 480};
+  SightingScore scorer_;
+  Matches matches_;
+  Motion motion_;
+};
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kRounding = 1e-4f;
+
+// 2 px away is d² = 4, two nats; 0.05 unlike at a scale of 0.1 is half a nat; 1.5 is expected.
+TEST_F(SightingScoreTest, PlaceAndLookAddUp) {
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 2}, 0.05f), 2.0f + 0.5f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 0.0f), -1.5f, kRounding) << "a perfect sighting speaks for standing still";
+}
+
+// σ = √(0.03² + 0.04²) = 0.05 m; 0.1 m of difference is d² = 4, two nats, of which one is expected.
+TEST_F(SightingScoreTest, DepthCountsInItsOwnNoise) {
+  EXPECT_NEAR(evidence({0, 0}, 0.0f, 2.1f), -1.5f + 2.0f - 1.0f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 0.0f, 1.9f), -1.5f + 2.0f - 1.0f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 2.0f - 1.0f, kRounding) << "depth alone, where no patch could be compared";
+  scorer_.options.depth_sigmas = 2.0;  // σ = 0.1: half a nat
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 0.5f - 1.0f, kRounding);
+  scorer_.options.depth_floor_m = 0.1;  // σ = 0.2: an eighth
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 0.125f - 1.0f, kRounding);
+}
+
+TEST_F(SightingScoreTest, EvidenceSaturates) {
+  EXPECT_NEAR(evidence({100, 0}, 0.0f), 8.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 2.0f), 6.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 6.0f), 7.0f - 1.0f, kRounding);
+}
+
+// σ = 1 + 2 · 0.5 = 2 px after half a second: 4 px away is d² = 4.
+TEST_F(SightingScoreTest, TheChainedPoseDriftsWithTime) {
+  EXPECT_NEAR(evidence({4, 0}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, kRounding);
+}
+
+// σ_ω = 0.002 rad and σ_v = 0.004 m at 2 m are each 1 px at f = 500: the variance is 1 + 1 + 1, 6 px² / 3 / 2 = 1 nat.
+TEST_F(SightingScoreTest, ThePosesOwnErrorIsNoEvidence) {
+  motion_.covariance.topLeftCorner<3, 3>() = 4e-6 * Matrix3d::Identity();
+  motion_.covariance.bottomRightCorner<3, 3>() = 16e-6 * Matrix3d::Identity();
+  EXPECT_NEAR(evidence({std::sqrt(6.0f), 0}, 0.0f), 1.0f - 1.5f, 1e-3f);
+}
+
+TEST_F(SightingScoreTest, OneObjectionAloneIsHalfAnObjection) {
+  seen({4, 0}, 0.0f);  // 8 nats less 1.5
+  EXPECT_NEAR(score(), 0.5f * (6.5f - 3.0f), kRounding) << "frames that say nothing speak for standing still";
+  seen({0, 0}, 0.0f);
+  EXPECT_NEAR(score(), 0.5f * (6.5f - 1.5f), kRounding);
+  seen({2, 0}, 0.0f);
+  EXPECT_NEAR(score(), 0.5f * (6.5f + 0.5f), kRounding) << "the two that object most";
+}
+
+TEST_F(SightingScoreTest, WhatWasNotSeenIsNotScored) {
+  EXPECT_TRUE(std::isnan(score())) << "no older frame";
+  seen({50, 0}, 2.0f, 5.0f).state = SightingState::occluded;
+  seen({50, 0}, 2.0f, 5.0f).state = SightingState::none;
+  EXPECT_TRUE(std::isnan(score())) << "hidden or out of view: nothing is known";
+  seen({0, 0}, 0.0f);
+  EXPECT_NEAR(score(), 0.5f * (-1.5f - 3.0f), kRounding);
+}
+
+// The older camera stood 0.1 m to the left: the point is seen 25 px to the right there.
+TEST_F(SightingScoreTest, SightingsAreComparedWhereTheMotionPutsThem) {
+  for (int i = 0; i < 2; ++i) {
+    seen({25, 0}, 0.0f);
+    matches_.sightings.frames()[static_cast<std::size_t>(i)].reference_from_current.translation().x() = 0.1;
+  }
+  EXPECT_NEAR(score(), -1.5f, kRounding);
+}
+
+}  // namespace
+}  // namespace stillpoint
