@@ -4,11 +4,13 @@
 
 // The filter that the options ask for, set as they say.
 
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "../backends/oracle_filter.hpp"
+#include "corrections.hpp"
 #include "frame_source.hpp"
 #include "options.hpp"
 #include "stillpoint/core/depth_noise.hpp"
@@ -44,14 +46,41 @@ stillpoint::FrameFilter<Policies> paper_filter(const Options& options, const sti
   return filter;
 }
 
+inline SwitchedMotion::Kind motion_kind(const std::string& name) {
+  return name == "rigid"      ? SwitchedMotion::Kind::rigid
+         : name == "epipolar" ? SwitchedMotion::Kind::epipolar
+                              : SwitchedMotion::Kind::support;
+}
+
+template <class Policies>
+stillpoint::FrameFilter<Policies> default_filter(const Options& options, const stillpoint::Camera& camera) {
+  stillpoint::FrameFilter<Policies> filter(camera);
+  filter.depth_noise = depth_noise(options, camera);
+  filter.gate.options.false_positive_rate = options.false_positive_rate;
+  support_motion(filter.ego_motion).options.seed = options.seed;
+  filter.classifier.options.seed = options.seed;
+  if constexpr (std::is_same_v<Policies, SwitchedPolicies>) {
+    filter.ego_motion.kind = motion_kind(options.ego_motion);
+    filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;
+  }
+  switch_off(options.without, filter);
+  return filter;
+}
+
 }  // namespace detail
 
 /// Calls `use(filter)` with the filter that the options name. A further policy set is a further line.
 template <class Use>
 decltype(auto) with_filter(const Options& options, const stillpoint::Camera& camera, Use&& use) {
+  using stillpoint::DefaultPolicies;
   using stillpoint::PaperPolicies;
   using stillpoint::PaperRigidPolicies;
   if (options.prior == "labels") return use(examples::OracleFilter{});
+  if (options.policies == "default") {
+    if (options.ego_motion != "default" || options.without.needs_other_stages())
+      return use(detail::default_filter<SwitchedPolicies>(options, camera));
+    return use(detail::default_filter<DefaultPolicies>(options, camera));
+  }
   if (options.ego_motion == "rigid") return use(detail::paper_filter<PaperRigidPolicies>(options, camera));
   return use(detail::paper_filter<PaperPolicies>(options, camera));
 }

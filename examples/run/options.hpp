@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "corrections.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/version.hpp"
@@ -28,9 +29,11 @@ struct Options {
   std::filesystem::path out = "stillpoint_out";
   std::filesystem::path camera;  ///< empty: the sequence's own
   std::string depth_noise = "kinect";
-  std::string policies = "paper";
+  std::string policies = "default";
   std::string ego_motion = "default";
   std::vector<std::string> as_printed;  ///< of eq3, eq8, unit-t
+  double false_positive_rate = stillpoint::TailGate::Options{}.false_positive_rate;
+  Without without;  ///< corrections that are switched off
   std::string prior = "none";
   std::string backend = "odometry";
   int features = 1000;
@@ -89,6 +92,40 @@ CLI::Validator whole_number(Integer least, Integer most) {
       "");
 }
 
+/// A number in a range, with nothing behind it.
+inline CLI::Validator number(double least, double most, const char* range) {
+  return CLI::Validator(
+      [least, most, range](std::string& text) {
+        double value = 0;
+        const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_number = result.ec == std::errc() && result.ptr == text.data() + text.size();
+        if (is_number && value >= least && value <= most) return std::string();
+        return "found '" + text + "', expected a number from " + range;
+      },
+      "");
+}
+
+/// The corrections' names, and for --help what each is.
+inline std::vector<std::string> correction_names() {
+  std::vector<std::string> names;
+  for (const Correction& correction : kCorrections) names.emplace_back(correction.name);
+  return names;
+}
+inline std::string correction_list() {
+  std::string list;
+  for (const Correction& correction : kCorrections) list += (list.empty() ? "" : ", ") + std::string(correction.name);
+  return list;
+}
+inline std::string correction_help() {
+  std::string help = "Corrections of the paper's method, and what --without each is done instead:\n";
+  for (const Correction& correction : kCorrections) {
+    std::string name = correction.name;
+    name.resize(18, ' ');
+    help += "  " + name + correction.then + '\n';
+  }
+  return help;
+}
+
 inline CLI::Validator not_empty() {
   return CLI::Validator(
       [](std::string& text) { return text.empty() ? std::string("found nothing, expected a path") : std::string(); },
@@ -103,13 +140,29 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
                                          : "found no sequence, expected --demo or --tum FOLDER");
   if (options.demo && given("--camera"))
     throw stillpoint::Error("--camera: found with --demo, whose camera is known; expected it with --tum");
+  const std::string only_default = ": found with --policies paper, expected it with --policies default, whose it is";
+  if (options.policies == "paper")
+    for (const char* name : {"--false-positive-rate", "--without"})
+      if (given(name)) throw stillpoint::Error(name + only_default);
+  if (options.policies == "default" && given("--paper-as-printed"))
+    throw stillpoint::Error(
+        "--paper-as-printed: found with --policies default, which makes none of these errors; expected it with "
+        "--policies paper");
+  if (options.without("calibrated") && given("--false-positive-rate"))
+    throw stillpoint::Error("--false-positive-rate: found with --without calibrated, whose level knows no rate");
+  if (options.policies == "default" && options.ego_motion != "default")
+    for (const char* name : {"measured-noise", "past-hypothesis"})
+      if (options.without(name))
+        throw stillpoint::Error("--without: found " + std::string(name) + " with --ego-motion " + options.ego_motion +
+                                ", expected --ego-motion default, whose correction it is");
   if (options.ego_motion == "rigid")
     for (const char* name : {"eq3", "unit-t"})
       if (options.prints_error(name))
         throw stillpoint::Error("--paper-as-printed: found " + std::string(name) +
                                 " with --ego-motion rigid, expected --ego-motion epipolar, whose printed error it is");
   if (options.prior == "labels")
-    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise"})
+    for (const char* name :
+         {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise", "--false-positive-rate", "--without"})
       if (given(name))
         throw stillpoint::Error(std::string(name) +
                                 ": found with --prior labels, which looks the answer up and filters nothing; expected "
@@ -140,14 +193,25 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   add_path("--camera", "FILE", options.camera, "the camera, where the folder has no camera.yaml or another is wanted")
       ->default_str("");
   detail::add_choice(app, "--depth-noise", options.depth_noise, {"kinect", "stereo", "tof"}, "how wrong the depth is");
-  detail::add_choice(app, "--policies", options.policies, {"paper"}, "which set of stages");
+  detail::add_choice(app, "--policies", options.policies, {"default", "paper"},
+                     "which set of stages: the corrected method or the paper's");
   detail::add_choice(app, "--ego-motion", options.ego_motion, {"default", "rigid", "epipolar"},
-                     "how the camera's motion is found; default is what the policies take, paper: epipolar");
+                     "how the camera's motion is found; default is what the policies take: by area and trust for the "
+                     "default ones, epipolar for the paper's");
   app.add_option("--paper-as-printed", options.as_printed, "printed errors of the paper to repeat, commas between")
       ->delimiter(',')
       ->type_name("eq3,eq8,unit-t")
       ->check(detail::one_of({"eq3", "eq8", "unit-t"}, "eq3, eq8, unit-t"))
       ->default_str("");
+  app.add_option("--false-positive-rate", options.false_positive_rate, "share of standing features that may be dropped")
+      ->type_name("RATE")
+      ->check(detail::number(1e-6, 0.5, "0.000001 to 0.5"));
+  app.add_option("--without", options.without.names, "corrections to switch off, commas between; listed below")
+      ->delimiter(',')
+      ->type_name("CORRECTION")
+      ->check(detail::one_of(detail::correction_names(), detail::correction_list()))
+      ->default_str("");
+  app.footer(detail::correction_help());
   const CLI::Option* prior = detail::add_choice(
       app, "--prior", options.prior, {"none", "boxes", "labels"},
       "where something may move; labels is an oracle that drops what the labels call a mover, a yardstick. The demo of "
@@ -178,15 +242,23 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
 
 /// Name and value of each setting of a run, for the report.
 inline std::vector<std::pair<std::string, std::string>> settings(const Options& options) {
-  std::string printed;
-  for (const std::string& name : options.as_printed) printed += (printed.empty() ? "" : ",") + name;
+  const auto joined = [](const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+    return list.empty() ? std::string("nothing") : list;
+  };
+  const bool is_paper = options.policies == "paper";
+  char rate[32];
+  *std::to_chars(rate, rate + sizeof rate - 1, options.false_positive_rate).ptr = '\0';
   const bool all_frames = options.frames == std::numeric_limits<int>::max();
   return {{"sequence", options.demo ? "--demo" : "--tum " + options.tum.string()},
           {"--camera", options.camera.empty() ? "the sequence's own" : options.camera.string()},
           {"--depth-noise", options.depth_noise},
           {"--policies", options.policies},
           {"--ego-motion", options.ego_motion},
-          {"--paper-as-printed", printed.empty() ? "nothing" : printed},
+          {"--paper-as-printed", joined(options.as_printed)},
+          {"--false-positive-rate", is_paper ? "n/a" : rate},
+          {"--without", joined(options.without.names)},
           {"--prior", options.prior},
           {"--backend", options.backend},
           {"--features", std::to_string(options.features)},

@@ -16,9 +16,9 @@ namespace {
 TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
   const Outcome outcome = run_program("--help");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* name :
-       {"--demo", "--tum", "--out", "--camera", "--depth-noise", "--policies", "--ego-motion", "--paper-as-printed",
-        "--prior", "--backend", "--features", "--start", "--frames", "--seed", "--threads", "--quiet"})
+  for (const char* name : {"--demo", "--tum", "--out", "--camera", "--depth-noise", "--policies", "--ego-motion",
+                           "--paper-as-printed", "--false-positive-rate", "--without", "--prior", "--backend",
+                           "--features", "--start", "--frames", "--seed", "--threads", "--quiet"})
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
   for (const char* later : {"klt", "--euroc", "--images", "--video", "MODEL"})
     EXPECT_EQ(outcome.out.find(later), std::string::npos) << later;
@@ -38,7 +38,7 @@ TEST(StillpointRunArguments, OneSequenceIsAskedFor) {
 }
 
 TEST(StillpointRunArguments, WordsThatAreNotOffered) {
-  expect_error("--demo --policies best", {"--policies", "found 'best'", "expected paper"});
+  expect_error("--demo --policies best", {"--policies", "found 'best'", "expected one of default, paper"});
   expect_error("--demo --ego-motion imu", {"--ego-motion", "found 'imu'", "expected one of default, rigid, epipolar"});
   expect_error("--demo --depth-noise none", {"--depth-noise", "found 'none'", "expected one of kinect, stereo, tof"});
   expect_error("--demo --prior model.onnx", {"--prior", "found 'model.onnx'", "expected one of none, boxes, labels"});
@@ -66,7 +66,7 @@ TEST(StillpointRunArguments, UnknownOnesAreNamed) {
 
 TEST(StillpointRunArguments, ThatContradictEachOther) {
   expect_error("--demo --camera camera.yaml", {"--camera", "--demo", "expected it with --tum"});
-  expect_error("--demo --ego-motion rigid --paper-as-printed eq3",
+  expect_error("--demo --policies paper --ego-motion rigid --paper-as-printed eq3",
                {"--paper-as-printed", "eq3", "expected --ego-motion epipolar"});
   expect_error("--demo --prior labels --policies paper", {"--policies", "--prior labels"});
 }

@@ -243,8 +243,10 @@ TEST_F(Demo, StartsWhereItIsTold) {
 
 TEST(DemoChoices, EveryChoiceRuns) {
   const TemporaryFolder other;
-  for (const char* choice : {"--ego-motion rigid", "--ego-motion epipolar", "--paper-as-printed eq3,eq8,unit-t",
-                             "--depth-noise stereo", "--depth-noise tof", "--prior none", "--features 50"}) {
+  for (const char* choice :
+       {"--ego-motion rigid", "--ego-motion epipolar", "--policies paper", "--policies paper --ego-motion rigid",
+        "--policies paper --paper-as-printed eq3,eq8,unit-t", "--prior boxes", "--depth-noise stereo",
+        "--depth-noise tof", "--prior none", "--features 50"}) {
     const Outcome outcome =
         run_program(std::string("--demo --quiet --frames 2 --out ") + quoted(other / "out") + ' ' + choice);
     EXPECT_EQ(outcome.status, 0) << choice << '\n' << outcome.error;

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The corrections of the paper's method in `DefaultPolicies`, each of which can be switched off to see what it is
+// worth.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "corrections_policies.hpp"
+#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/policies.hpp"
+
+namespace stillpoint_run {
+
+/// One choice of the paper that `DefaultPolicies` makes otherwise.
+struct Correction {
+  const char* name;  ///< for the command line
+  const char* then;  ///< what the filter does without it
+};
+
+inline constexpr std::array<Correction, 12> kCorrections = {{
+    {"whitened", "offsets in radians and metres, Eq. 9, in place of likelihoods"},
+    {"calibrated", "the level is the mean score of what stands still, Eq. 10"},
+    {"measured-noise", "matches support a motion within 0.1 px, not within the noise"},
+    {"clusters", "a tenth as many clusters as features, undivided, that decide alone"},
+    {"all-features", "only features in boxes of moving classes are tested"},
+    {"older-frames", "features are looked for in the last frame alone"},
+    {"memory", "each frame is judged by itself; no suspicion either"},
+    {"lost-features", "what no longer looks alike is no evidence"},
+    {"past-hypothesis", "the motion is that with the most support, whatever went before"},
+    {"area-support", "the host's key points support the motion, not corners and surfaces by area"},
+    {"depth-guard", "depth at the rounded pixel, edges and holes or not"},
+    {"keep-floor", "all that moves is dropped, whatever is left"},
+}};
+
+/// Those that are switched off.
+struct Without {
+  std::vector<std::string> names;
+  bool operator()(std::string_view name) const { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+  /// True where options of `DefaultPolicies` do not do: `SwitchedPolicies` is needed.
+  bool needs_other_stages() const {
+    return (*this)("whitened") || (*this)("calibrated") || (*this)("all-features") || (*this)("area-support") ||
+           (*this)("depth-guard");
+  }
+};
+
+namespace detail {
+
+/// What another type of a stage does.
+inline void switch_stages(const Without& without, stillpoint::FrameFilter<SwitchedPolicies>& filter) {
+  filter.scorer.is_whitened = !without("whitened");
+  filter.gate.is_calibrated = !without("calibrated");
+  filter.gate.lowest = filter.classifier.options.lowest;
+  filter.classifier.tests_all = !without("all-features");
+  filter.matcher.supports_by_area = !without("area-support");
+  filter.depth_lookup.is_guarded = !without("depth-guard");
+  if (without("area-support")) filter.ego_motion.support.constraints.surface_weight = 0.0;
+}
+inline void switch_stages(const Without&, stillpoint::FrameFilter<stillpoint::DefaultPolicies>&) {}
+
+inline stillpoint::SupportMotion& support_motion(stillpoint::SupportMotion& motion) { return motion; }
+inline stillpoint::SupportMotion& support_motion(SwitchedMotion& motion) { return motion.support; }
+
+}  // namespace detail
+
+/// Sets a filter of `DefaultPolicies` or `SwitchedPolicies` so that it does without the corrections named.
+template <class Policies>
+void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filter) {
+  constexpr float kNever = std::numeric_limits<float>::infinity();
+  detail::switch_stages(without, filter);
+  stillpoint::SupportMotion& motion = detail::support_motion(filter.ego_motion);
+  if (without("measured-noise")) motion.constraints.pixel_sigma = 0.1 / motion.options.inlier_sigmas;
+  if (without("past-hypothesis")) motion.options.past_preference = std::numeric_limits<double>::infinity();
+  if (without("clusters")) {
+    auto& clusters = filter.classifier.options;
+    clusters.features_per_cluster = 10;
+    clusters.fewest_clusters = 1;
+    clusters.split_variance = kNever;
+    clusters.own_share = 0.0f;
+    // As long along the ray as across it: 40 px at 2 m are 0.15 m.
+    clusters.depth_extent_m = 0.15;
+    clusters.depth_extent_growth = 1e-9;
+  }
+  if (without("older-frames")) filter.matcher.older.options.longest_s = 0.0;
+  if (without("lost-features")) {
+    constexpr double kOfLook = 0.5;  // of the score that 1 % of the standing features of static_room exceed
+    filter.scorer.options.most_from_look = 0.0;
+    filter.scorer.options.expected_patch -= kOfLook;
+  }
+  if (without("depth-guard")) {
+    auto& guard = filter.matcher.older.guard.options;
+    guard.fewest_neighbours = 1;
+    guard.jump_m = std::numeric_limits<double>::infinity();
+  }
+  if (without("memory")) {
+    auto& memory = filter.memory.options;
+    memory.persistence = memory.suspicion_persistence = 0.0f;
+    memory.keep_below = memory.drop_above;
+  }
+  if (without("keep-floor")) filter.keep_floor.options.fewest_features = filter.keep_floor.options.fewest_cells = 0;
+}
+
+}  // namespace stillpoint_run
