@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// The code of the documents, line by line: tests/structure/documents.sh looks for each of their lines here.
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <opencv2/core.hpp>
+#include <vector>
+
+// clang-format off
+#include <stillpoint/stillpoint.hpp>
+// clang-format on
+
+namespace {
+
+struct StandingCamera {
+  template <class Camera>
+  stillpoint::Motion estimate(const stillpoint::Matches& matches, const stillpoint::Regions&, const Camera&,
+                              const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
+    stillpoint::Motion motion;  // the identity, without any doubt
+    motion.status = stillpoint::Status::ok;
+    motion.candidates = motion.inliers = static_cast<int>(matches.size());
+    return motion;
+  }
+};
+
+struct TripodPolicies : stillpoint::DefaultPolicies {
+  using EgoMotion = StandingCamera;
+};
+
+// clang-format off
+struct MyPolicies : stillpoint::DefaultPolicies { using EgoMotion = stillpoint::RigidMotion; };
+// clang-format on
+
+/// A textured wall two metres away.
+struct Wall {
+  cv::Mat gray = cv::Mat(240, 320, CV_8UC1), depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(10000));
+  std::vector<cv::KeyPoint> keypoints;
+
+  Wall() {
+    stillpoint::Random random(1);
+    for (int v = 0; v < gray.rows; ++v)
+      for (int u = 0; u < gray.cols; ++u) gray.at<unsigned char>(v, u) = static_cast<unsigned char>(random.index(256));
+    for (int v = 20; v < 220; v += 20)
+      for (int u = 20; u < 300; u += 20) keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v), 31.0f);
+  }
+};
+
+const stillpoint::Camera kCamera(260, 260, 159.5, 119.5, 320, 240);
+
+TEST(Documents, TheSnippetOfTheReadmeRuns) {
+  const stillpoint::Camera& camera = kCamera;
+  Wall wall;
+  const cv::Mat &gray = wall.gray, &depth = wall.depth;
+  std::vector<cv::KeyPoint>& keypoints = wall.keypoints;
+  cv::Mat descriptors(static_cast<int>(keypoints.size()), 32, CV_8UC1, cv::Scalar(0));
+  std::vector<float> depths(keypoints.size(), 2.0f);
+  const double time = 1.0;
+  // clang-format off
+stillpoint::FrameFilter<> filter(camera);                             // DefaultPolicies
+const auto& result = filter.filter_frame({gray, depth, time}, keypoints);
+stillpoint::compact(result.keep(), keypoints, descriptors, depths);   // parallel arrays stay aligned
+  // clang-format on
+  EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
+  EXPECT_EQ(keypoints.size(), depths.size());
+}
+
+TEST(Documents, TheTripodsPoliciesRun) {
+  stillpoint::FrameFilter<TripodPolicies> filter(kCamera);
+  const Wall wall;
+  for (int i = 0; i < 5; ++i) {
+    const auto& result = filter.filter_frame({wall.gray, wall.depth, 1.0 + 0.03 * i}, wall.keypoints);
+    if (i == 0) continue;
+    EXPECT_EQ(result.status(), stillpoint::Status::ok);
+    EXPECT_EQ(result.kept_count(), wall.keypoints.size()) << "nothing moves";
+  }
+}
+
+TEST(Documents, TheReplacedStageOfTheReadmeRuns) {
+  stillpoint::FrameFilter<MyPolicies> filter(kCamera);
+  const Wall wall;
+  filter.filter_frame({wall.gray, wall.depth, 1.0}, wall.keypoints);
+  const auto& result = filter.filter_frame({wall.gray, wall.depth, 1.03}, wall.keypoints);
+  EXPECT_TRUE(stillpoint::judged(result.status())) << to_string(result.status());
+}
+
+}  // namespace
