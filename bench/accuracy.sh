@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# bench/accuracy.sh [DATA]: measures what each correction is worth and writes the tables into docs/ablation.md, between
+# its markers. DATA is a folder with kitchen_walk, kitchen_box and kitchen_static, unless told ../shared/data; without
+# it there are the synthetic scenes alone. About ten minutes on two cores.
+set -euo pipefail
+here=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+data=$PWD/../shared/data
+if (($# > 0)); then
+  case $1 in /*) data=$1 ;; *) data=$here/$1 ;; esac
+fi
+
+bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libbenchmark-dev \
+  < /dev/null >&2
+
+cmake -S . -B build/ratios -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \
+  -DSTILLPOINT_BUILD_EXAMPLES=OFF > /dev/null
+cmake --build build/ratios --target stillpoint_accuracy >&2
+
+page=docs/ablation.md
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+build/ratios/bench/stillpoint_accuracy "$data" > "$work/tables"
+awk -v tables="$work/tables" '
+  /^<!-- end of tables -->$/ { skip = 0 }
+  !skip { print }
+  /^<!-- tables: / { while ((getline line < tables) > 0) print line; skip = 1 }
+' "$page" > "$work/page"
+mv "$work/page" "$page"
+cat "$work/tables"

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Whole sequences with everything that is known of them, in memory: key points, labels, boxes, true poses.
+
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "clip.hpp"
+#include "stillpoint/evaluation/trajectory.hpp"
+
+namespace stillpoint::bench {
+
+/// A frame with its truth.
+struct LabelledFrame : ClipFrame {
+  cv::Mat labels;                         ///< CV_8UC1, values of `PixelLabel`
+  std::optional<Pose> world_from_camera;  ///< empty where the reference has none within 10 ms
+};
+
+struct LabelledSequence {
+  Camera camera;
+  std::vector<LabelledFrame> frames;
+};
+
+/// The creeping box, of which all pixels are labelled as moving: 2 cm/s in a second, not in five frames.
+inline synthetic::Scene slow_mover() {
+  synthetic::Scene scene = synthetic::slow_mover();
+  scene.motion_rule.window_frames = 30;
+  return scene;
+}
+
+inline LabelledSequence rendered_sequence(const synthetic::Scene& scene) {
+  SyntheticSequence source(scene);
+  LabelledSequence sequence{source.camera(), {}};
+  const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
+  const MobilityTable mobility;
+  SyntheticFrame rendered;
+  for (int i = 0; i < source.size(); ++i) {
+    source.render(i, rendered);
+    LabelledFrame frame;
+    frame.gray = as_mat(rendered.gray.view()).clone();
+    frame.depth = as_mat(rendered.depth.view()).clone();
+    frame.depth_factor = rendered.depth_factor;
+    frame.timestamp_s = rendered.timestamp_s;
+    frame.labels = as_mat(rendered.labels.view()).clone();
+    frame.world_from_camera = rendered.world_from_camera;
+    for (const synthetic::TruthBox& box : rendered.boxes)
+      frame.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y), static_cast<float>(box.width),
+                                   static_cast<float>(box.height)},
+                                  mobility[box.class_name],
+                                  1.0f});
+    orb->detect(frame.gray, frame.keypoints);
+    sequence.frames.push_back(std::move(frame));
+  }
+  return sequence;
+}
+
+/// @throws Error where a file can't be read
+inline LabelledSequence recorded_sequence(const std::filesystem::path& folder) {
+  const TumSequence source(folder);
+  const std::vector<FrameBoxes> boxes = read_boxes(folder / "boxes.txt");
+  const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
+  const MobilityTable mobility;
+  LabelledSequence sequence{source.camera(), {}};
+  for (std::size_t i = 0; i < source.frames().size(); ++i) {
+    const RgbdImages images = source.load(i);
+    LabelledFrame frame;
+    cv::cvtColor(images.colour, frame.gray, cv::COLOR_BGR2GRAY);
+    frame.depth = images.depth;
+    frame.depth_factor = source.depth_factor();
+    frame.timestamp_s = source.frames()[i].timestamp_s;
+    if (source.has_labels()) frame.labels = source.load_labels(i);
+    if (source.ground_truth()) {
+      const AssociatedTrajectories pair = associate(*source.ground_truth(), {{frame.timestamp_s, Pose::Identity()}});
+      if (!pair.reference.empty()) frame.world_from_camera = pair.reference.front().world_from_camera;
+    }
+    if (const FrameBoxes* const found = boxes_at(boxes, frame.timestamp_s))
+      for (const DetectedBox& box : found->boxes)
+        frame.detections.push_back({box.box, mobility[box.class_name], box.confidence});
+    orb->detect(frame.gray, frame.keypoints);
+    sequence.frames.push_back(std::move(frame));
+  }
+  return sequence;
+}
+
+}  // namespace stillpoint::bench
