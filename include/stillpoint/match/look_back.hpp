@@ -37,7 +37,7 @@ class LookBack {
     int surface_step_px = 16;       ///< spacing of the surface cells
     int surface_reach_px = 5;       ///< from a cell's centre to the pixels that span its normal
     double steepest_cosine = 0.2;   ///< of a surface to the line of sight; steeper ones are left out
-    PatchSearch search;
+    PatchSearch search = {3};       ///< a standing point is not three pixels away: more steps only find look-alikes
   };
   Options options;
   GuardedDepth guard;  ///< which depth of an older frame belongs to a pixel?

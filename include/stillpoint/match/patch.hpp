@@ -120,7 +120,7 @@ inline bool cut_patch(const ImageView& gray, const Vector2f& centre, const Patch
 
 /// How `find_patch` searches.
 struct PatchSearch {
-  int iterations = 5;
+  int iterations = 5;          ///< steps of at most a pixel
   float precision_px = 0.03f;  ///< a smaller step ends the search
   float reach_px = 3.0f;       ///< the offset is held within this radius
   /// What a step of one pixel in the patch is in the other image: scale, rotation and shear between the views.
