@@ -45,6 +45,7 @@ class FrameFilterTest : public testing::Test {
     ASSERT_EQ(result.keep().size(), keypoints_.size());
     EXPECT_EQ(result.kept_count(), keypoints_.size());
     EXPECT_FALSE(result.motion().usable());
+    EXPECT_EQ(result.motion().status, status);
     EXPECT_EQ(result.keep_floor_kept(), 0u);
     for (std::size_t i = 0; i < result.size(); ++i) {
       EXPECT_EQ(result.keep()[i], 1);
@@ -297,6 +298,15 @@ TEST_F(FrameFilterTest, TheLastMotionIsExpectedAgain) {
   at(1.3);
   at(1.4);
   EXPECT_FALSE(filter_.ego_motion.asked.current_from_reference) << "a motion that failed predicts nothing";
+}
+
+TEST_F(FrameFilterTest, TwiceTheTimeTwiceTheMotionIsExpected) {
+  filter_.ego_motion.answer.current_from_reference = pose({0, 0.1, 0}, {0, 0, 1});
+  at(1.0);
+  at(1.1);
+  at(1.3);
+  ASSERT_TRUE(filter_.ego_motion.asked.current_from_reference);
+  EXPECT_TRUE(filter_.ego_motion.asked.current_from_reference->isApprox(pose({0, 0.2, 0}, {0, 0, 2}), 1e-9));
 }
 
 // The camera stood at (1, 2, 3) and then at (2, 2, 3), turned by a quarter about z. In the frame of the second, the
