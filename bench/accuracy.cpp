@@ -1,12 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// stillpoint_accuracy [DATA]: what each choice of the paper costs, and what each correction is worth, as tables in
-// Markdown on standard output. DATA holds kitchen_walk, kitchen_box and kitchen_static; what is not there is left out.
+// stillpoint_accuracy [DATA [FRAMES]]: what each choice of the paper costs, and what each correction is worth, as
+// tables in Markdown on standard output. DATA holds kitchen_walk, kitchen_box and kitchen_static; what is not there is
+// left out. FRAMES, if given, is the number of frames that is taken of each sequence.
 
 #include <opencv2/core/utility.hpp>
 
 #include <atomic>
+#include <charconv>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
@@ -15,12 +17,15 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "accuracy_methods.hpp"
 #include "accuracy_sequence.hpp"
+#include "stillpoint/core/error.hpp"
 
 namespace stillpoint::bench {
 namespace {
@@ -32,8 +37,10 @@ struct Trial {
   bool gives_boxes;
 };
 
-std::vector<Trial> trials(const std::filesystem::path& data) {
-  const auto synthetic = [](auto scene) { return [scene] { return rendered_sequence(scene()); }; };
+std::vector<Trial> trials(const std::filesystem::path& data, std::size_t most_frames) {
+  const auto synthetic = [most_frames](auto scene) {
+    return [scene, most_frames] { return rendered_sequence(scene(), most_frames); };
+  };
   std::vector<Trial> result = {
       {"walking_people, boxes", synthetic([] { return synthetic::walking_people(); }), true},
       {"walking_people", synthetic([] { return synthetic::walking_people(); }), false},
@@ -44,7 +51,7 @@ std::vector<Trial> trials(const std::filesystem::path& data) {
   const auto recorded = [&](const char* name, const char* column, bool gives_boxes) {
     const std::filesystem::path folder = data / name;
     if (std::filesystem::exists(folder / "camera.yaml"))
-      result.push_back({column, [folder] { return recorded_sequence(folder); }, gives_boxes});
+      result.push_back({column, [folder, most_frames] { return recorded_sequence(folder, most_frames); }, gives_boxes});
     else
       std::fprintf(stderr, "stillpoint_accuracy: no %s: left out\n", folder.string().c_str());
   };
@@ -78,8 +85,8 @@ void print_table(const char* title, const std::vector<Trial>& columns, const std
   std::printf("\n");
 }
 
-void measure(const std::filesystem::path& data, unsigned thread_count) {
-  const std::vector<Trial> columns = trials(data);
+void measure(const std::filesystem::path& data, std::size_t most_frames, unsigned thread_count) {
+  const std::vector<Trial> columns = trials(data, most_frames);
   const std::vector<Method> rows = methods();
   std::vector<std::vector<Outcome>> outcomes(columns.size());
   // A column is one thread's: filters know nothing of each other, so that the numbers do not depend on the threads.
@@ -103,6 +110,7 @@ void measure(const std::filesystem::path& data, unsigned thread_count) {
   for (std::thread& thread : threads) thread.join();
   if (failure) std::rethrow_exception(failure);
 
+  if (most_frames != kAllFrames) std::printf("At most %zu frames of each sequence.\n\n", most_frames);
   print_table(
       "Recall on what moves / false alarms on the background, %", columns, rows, outcomes,
       [](const Outcome& o) { return cell(o.recall_percent, "%.1f") + " / " + cell(o.false_alarms_percent, "%.1f"); });
@@ -117,7 +125,14 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   try {
     constexpr unsigned kThreads = 2;
-    stillpoint::bench::measure(argc > 1 ? argv[1] : STILLPOINT_SHARED_DATA, kThreads);
+    std::size_t most_frames = stillpoint::bench::kAllFrames;
+    if (argc > 2) {
+      const std::string_view text = argv[2];
+      const auto result = std::from_chars(text.data(), text.data() + text.size(), most_frames);
+      if (result.ec != std::errc() || result.ptr != text.data() + text.size() || most_frames < 2)
+        throw stillpoint::Error("FRAMES: found '" + std::string(text) + "', expected a whole number from 2");
+    }
+    stillpoint::bench::measure(argc > 1 ? argv[1] : STILLPOINT_SHARED_DATA, most_frames, kThreads);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stillpoint_accuracy: %s\n", error.what());
     return 2;

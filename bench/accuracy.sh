@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# bench/accuracy.sh [DATA]: measures what each correction is worth and writes the tables into docs/ablation.md, between
+# bench/accuracy.sh [DATA [FRAMES]]: measures what each correction is worth and writes the tables into docs/ablation.md, between
 # its markers. DATA is a folder with kitchen_walk, kitchen_box and kitchen_static, unless told ../shared/data; without
-# it there are the synthetic scenes alone. About ten minutes on two cores.
+# it there are the synthetic scenes alone. FRAMES of each sequence, all unless told. About ten minutes on two free cores.
 set -euo pipefail
 here=$PWD
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -12,6 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 data=$PWD/../shared/data
 if (($# > 0)); then
   case $1 in /*) data=$1 ;; *) data=$here/$1 ;; esac
+  shift
 fi
 
 bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libbenchmark-dev \
@@ -24,7 +25,7 @@ cmake --build build/ratios --target stillpoint_accuracy >&2
 page=docs/ablation.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-build/ratios/bench/stillpoint_accuracy "$data" > "$work/tables"
+build/ratios/bench/stillpoint_accuracy "$data" "$@" > "$work/tables"
 awk -v tables="$work/tables" '
   /^<!-- end of tables -->$/ { skip = 0 }
   !skip { print }

@@ -8,9 +8,10 @@
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include <cmath>
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +21,8 @@
 #include "stillpoint/evaluation/trajectory.hpp"
 
 namespace stillpoint::bench {
+
+inline constexpr std::size_t kAllFrames = std::numeric_limits<std::size_t>::max();
 
 /// A frame with its truth.
 struct LabelledFrame : ClipFrame {
@@ -39,13 +42,13 @@ inline synthetic::Scene slow_mover() {
   return scene;
 }
 
-inline LabelledSequence rendered_sequence(const synthetic::Scene& scene) {
+inline LabelledSequence rendered_sequence(const synthetic::Scene& scene, std::size_t most_frames) {
   SyntheticSequence source(scene);
   LabelledSequence sequence{source.camera(), {}};
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
   const MobilityTable mobility;
   SyntheticFrame rendered;
-  for (int i = 0; i < source.size(); ++i) {
+  for (int i = 0; i < source.size() && static_cast<std::size_t>(i) < most_frames; ++i) {
     source.render(i, rendered);
     LabelledFrame frame;
     frame.gray = as_mat(rendered.gray.view()).clone();
@@ -66,13 +69,13 @@ inline LabelledSequence rendered_sequence(const synthetic::Scene& scene) {
 }
 
 /// @throws Error where a file can't be read
-inline LabelledSequence recorded_sequence(const std::filesystem::path& folder) {
+inline LabelledSequence recorded_sequence(const std::filesystem::path& folder, std::size_t most_frames) {
   const TumSequence source(folder);
   const std::vector<FrameBoxes> boxes = read_boxes(folder / "boxes.txt");
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
   const MobilityTable mobility;
   LabelledSequence sequence{source.camera(), {}};
-  for (std::size_t i = 0; i < source.frames().size(); ++i) {
+  for (std::size_t i = 0; i < std::min(source.frames().size(), most_frames); ++i) {
     const RgbdImages images = source.load(i);
     LabelledFrame frame;
     cv::cvtColor(images.colour, frame.gray, cv::COLOR_BGR2GRAY);
