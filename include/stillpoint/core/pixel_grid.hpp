@@ -24,9 +24,9 @@ class PixelGrid {
     Vector2f largest = Vector2f::Zero();
     for (std::size_t i = 0; i < pixels.size(); ++i)
       if (takes_part(i, accept)) largest = largest.cwiseMax(pixels[i].cwiseMin(kLargest_px));
-    columns_ = std::min(static_cast<int>(largest.x() / cell_px) + 1, kMostCells);
-    rows_ = std::min(static_cast<int>(largest.y() / cell_px) + 1, kMostCells);
-    begin_ = workspace.take<std::uint32_t>(static_cast<std::size_t>(columns_ * rows_) + 1);
+    columns_ = std::min(static_cast<std::size_t>(largest.x() / cell_px) + 1, kMostCells);
+    rows_ = std::min(static_cast<std::size_t>(largest.y() / cell_px) + 1, kMostCells);
+    begin_ = workspace.take<std::uint32_t>(columns_ * rows_ + 1);
     index_ = workspace.take<std::uint32_t>(pixels.size());
     // Counting sort: count, sum up, put in place from behind.
     for (std::size_t i = 0; i < pixels.size(); ++i)
@@ -41,12 +41,10 @@ class PixelGrid {
   template <class Visit>
   void within(const Vector2f& pixel, float radius_px, const Visit& visit) const {
     if (!pixel.allFinite() || !(pixel.cwiseAbs().maxCoeff() < 2 * kLargest_px)) return;
-    const int u0 = clamped(pixel.x() - radius_px, columns_), u1 = clamped(pixel.x() + radius_px, columns_);
-    const int v0 = clamped(pixel.y() - radius_px, rows_), v1 = clamped(pixel.y() + radius_px, rows_);
-    for (int v = v0; v <= v1; ++v) {
-      const auto row = static_cast<std::size_t>(v * columns_);
-      const std::uint32_t first = begin_[row + static_cast<std::size_t>(u0)];
-      const std::uint32_t last = begin_[row + static_cast<std::size_t>(u1) + 1];
+    const std::size_t u0 = clamped(pixel.x() - radius_px, columns_), u1 = clamped(pixel.x() + radius_px, columns_);
+    const std::size_t v0 = clamped(pixel.y() - radius_px, rows_), v1 = clamped(pixel.y() + radius_px, rows_);
+    for (std::size_t v = v0; v <= v1; ++v) {
+      const std::uint32_t first = begin_[v * columns_ + u0], last = begin_[v * columns_ + u1 + 1];
       for (std::uint32_t k = first; k < last; ++k) {
         const float squared = (pixels_[index_[k]] - pixel).squaredNorm();
         if (squared <= radius_px * radius_px) visit(std::size_t{index_[k]}, squared);
@@ -56,22 +54,22 @@ class PixelGrid {
 
  private:
   static constexpr float kLargest_px = 1e5f;
-  static constexpr int kMostCells = 512;  // to a side: the last ones take in what is farther away
+  static constexpr std::size_t kMostCells = 512;  // to a side: the last ones take in what is farther away
 
   template <class Accept>
   bool takes_part(std::size_t i, const Accept& accept) const {
     return pixels_[i].allFinite() && accept(i);
   }
-  int clamped(float coordinate_px, int count) const noexcept {
-    return static_cast<int>(std::clamp(coordinate_px / cell_px_, 0.0f, static_cast<float>(count - 1)));
+  std::size_t clamped(float coordinate_px, std::size_t count) const noexcept {
+    return static_cast<std::size_t>(std::clamp(coordinate_px / cell_px_, 0.0f, static_cast<float>(count - 1)));
   }
   std::size_t cell(const Vector2f& pixel) const noexcept {
-    return static_cast<std::size_t>(clamped(pixel.y(), rows_) * columns_ + clamped(pixel.x(), columns_));
+    return clamped(pixel.y(), rows_) * columns_ + clamped(pixel.x(), columns_);
   }
 
   span<const Vector2f> pixels_;
   float cell_px_;
-  int columns_ = 1, rows_ = 1;
+  std::size_t columns_ = 1, rows_ = 1;
   span<std::uint32_t> begin_, index_;
 };
 

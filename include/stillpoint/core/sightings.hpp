@@ -32,9 +32,9 @@ struct Sighting {
 
 /// A piece of smooth surface of the current frame, a cell of a coarse grid. It counts area where there are no corners.
 struct SurfaceCell {
-  Vector2f pixel;   ///< in the current image
-  Vector3d point;   ///< in the current camera, metres
-  Vector3d normal;  ///< unit length, in the current camera
+  Vector2f pixel = Vector2f::Zero();   ///< in the current image
+  Vector3d point = Vector3d::Zero();   ///< in the current camera, metres
+  Vector3d normal = Vector3d::Zero();  ///< unit length, in the current camera
   double depth_sigma_m = 0;
   float trust = 1.0f;  ///< 0 to 1, as `Matches::trust`
 };

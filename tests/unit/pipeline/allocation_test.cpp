@@ -106,6 +106,31 @@ TYPED_TEST(AllocationTest, NothingIsAllocatedInSteadyState) {
   EXPECT_EQ(after_warm_up, 0u);
 }
 
+// The filter that looks back fills a history, and its tables grow with corners and key points: the fullest frames
+// first, then others with fewer key points, some outside of the image, and some without any depth.
+TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
+  mock::Clip clip(3, 40);
+  FrameFilter<DefaultPolicies> filter(mock::Clip::camera());
+  filter.prior.detections = clip.detections;
+  ASSERT_GE(mock::Clip(3, 1).frames[0].keypoints.size(), 200u);
+  std::size_t judged_frames = 0, after_warm_up = 0;
+  for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+    mock::Clip::Frame& frame = clip.frames[f];
+    constexpr std::size_t kWarmUp = 20;  // the history holds 16 frames
+    if (f >= kWarmUp && f % 3 == 0) frame.keypoints.resize(frame.keypoints.size() / 2);
+    if (f >= kWarmUp && f % 4 == 0) frame.keypoints[0] = {1e30f, -5.0f};
+    if (f == 30) frame.depth.setTo(0);
+    allocations = 0;
+    counting = true;
+    const FrameResult& result = filter.filter_frame(frame.view(), frame.keypoints);
+    counting = false;
+    judged_frames += judged(result.status());
+    if (f >= kWarmUp) after_warm_up += allocations;
+  }
+  EXPECT_GE(judged_frames, 35u) << "a filter that judges nothing proves nothing";
+  EXPECT_EQ(after_warm_up, 0u);
+}
+
 TEST(Allocation, ColourFramesAndMasksReuseTheirMemoryToo) {
   mock::Clip clip(2, 10);
   FrameFilter<RigidOnTracks> filter(mock::Clip::camera());

@@ -17,7 +17,8 @@
 
 namespace stillpoint::mock {
 
-/// A textured wall at 2 m before a camera that moves sideways; within a box something nearer moves the other way.
+/// Three textured walls at 2, 1.5 and 1 m, one below the other (a single plane would not determine F), before a camera
+/// that moves sideways by 2 cm; within a box something nearer moves the other way.
 /// Every frame has the same number of key points.
 struct Clip {
   struct Frame {
@@ -28,12 +29,12 @@ struct Clip {
     FrameView view() const { return FrameView(gray, DepthView(depth), time_s); }
   };
   static constexpr int kWidth = 160, kHeight = 120;
-  static constexpr float kWallStep_px = 1.5f, kMoverStep_px = -2.0f;
+  static constexpr double kCameraStep_m = 0.02, kFocal_px = 150, kMoverStep_px = -2.0, kMoverDepth_m = 0.9;
 
   std::vector<Frame> frames;
   std::vector<Detection> detections = {{{60, 30, 40, 60}, Mobility::dynamic, 1.0f}};
 
-  static stillpoint::Camera camera() { return {150, 150, 79.5, 59.5, kWidth, kHeight}; }
+  static stillpoint::Camera camera() { return {kFocal_px, kFocal_px, 79.5, 59.5, kWidth, kHeight}; }
 
   Clip(std::uint64_t seed, int frame_count) {
     Random random(seed);
@@ -46,19 +47,18 @@ struct Clip {
       frame.depth.create(kHeight, kWidth, CV_16UC1);
       for (int v = 0; v < kHeight; ++v) {
         for (int u = 0; u < kWidth; ++u) {
-          const bool mover = is_mover(u, v);
           double sum = 0;
-          for (const auto& [wu, wv, phase] : waves) sum += std::sin(wu * (u - f * step(mover)) + wv * v + phase);
+          for (const auto& [wu, wv, phase] : waves) sum += std::sin(wu * (u - f * step_px(u, v)) + wv * v + phase);
           frame.gray.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(128 + 18 * sum);
           const double noise = std::round(20.0 * random.gaussian());
-          frame.depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>((mover ? 7500 : 10000) + noise);
+          frame.depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(5000.0 * depth_m(u, v) + noise);
         }
       }
       for (float v = 4; v < kHeight - 4; v += 7.3f) {
         for (float u = 4; u < kWidth - 4; u += 6.9f) {
           frame.keypoints.emplace_back(u + static_cast<float>(random.uniform()), v);
-          const bool mover = is_mover(static_cast<int>(u), static_cast<int>(v));
-          frame.reference_pixels.emplace_back(frame.keypoints.back().x() - static_cast<float>(step(mover)), v);
+          const double step = step_px(static_cast<int>(u), static_cast<int>(v));
+          frame.reference_pixels.emplace_back(frame.keypoints.back().x() - static_cast<float>(step), v);
         }
       }
       frames.push_back(frame);
@@ -67,7 +67,10 @@ struct Clip {
 
  private:
   static bool is_mover(int u, int v) { return u > 65 && u < 95 && v > 35 && v < 85; }
-  static double step(bool mover) { return static_cast<double>(mover ? kMoverStep_px : kWallStep_px); }
+  static double depth_m(int u, int v) { return is_mover(u, v) ? kMoverDepth_m : v < 40 ? 2.0 : v < 80 ? 1.5 : 1.0; }
+  static double step_px(int u, int v) {
+    return is_mover(u, v) ? kMoverStep_px : kFocal_px * kCameraStep_m / depth_m(u, v);
+  }
 };
 
 /// Every byte of an answer that a host can see, times aside.

@@ -43,7 +43,7 @@ class DeterminismTest : public testing::Test {
     return clip;
   }
 };
-using PolicySets = testing::Types<PaperRigidPolicies, PaperPolicies>;
+using PolicySets = testing::Types<PaperRigidPolicies, PaperPolicies, DefaultPolicies>;
 TYPED_TEST_SUITE(DeterminismTest, PolicySets);
 
 TYPED_TEST(DeterminismTest, TheSameFramesGiveTheSameBytes) {
