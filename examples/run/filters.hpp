@@ -26,10 +26,10 @@ inline stillpoint::AnyDepthNoise depth_noise(const Options& options, const still
   if (options.depth_noise == "stereo") {
     stillpoint::StereoNoise stereo;
     stereo.focal_px = camera.fx();
-    return {stereo};
+    return stereo;
   }
-  if (options.depth_noise == "tof") return {stillpoint::TimeOfFlightNoise{}};
-  return {stillpoint::KinectNoise{}};
+  if (options.depth_noise == "tof") return stillpoint::TimeOfFlightNoise{};
+  return stillpoint::KinectNoise{};
 }
 
 template <class Policies>

@@ -10,6 +10,8 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/core/workspace.hpp"
 
 namespace stillpoint {
 
@@ -52,6 +54,16 @@ void lift(const FrameView& frame, const Lookup& lookup, const Camera& camera, co
     const double depth_m = frame.depth.empty() ? 0.0 : lookup.at(frame.depth, to_depth(pixel));
     observations.set_depth(i, depth_m, depth_m > 0.0 ? noise.sigma(depth_m) : 0.0, camera);
   }
+}
+
+/// The median depth of the features that have one, metres; 0 where none has. O(n).
+inline double median_depth_m(const Observations& observations, Workspace& workspace) {
+  const Workspace::Scope scope(workspace);
+  const span<double> depths = workspace.take<double>(observations.size());
+  std::size_t count = 0;
+  for (const double depth_m : observations.depth_m)
+    if (depth_m > 0.0) depths[count++] = depth_m;
+  return count > 0 ? median_in_place(depths.first(count)) : 0.0;
 }
 
 }  // namespace stillpoint

@@ -53,6 +53,11 @@ FunctorNoise(Function) -> FunctorNoise<Function>;
 struct AnyDepthNoise {
   std::variant<KinectNoise, StereoNoise, TimeOfFlightNoise> model;
 
+  AnyDepthNoise() = default;
+  AnyDepthNoise(const KinectNoise& noise) : model(noise) {}
+  AnyDepthNoise(const StereoNoise& noise) : model(noise) {}
+  AnyDepthNoise(const TimeOfFlightNoise& noise) : model(noise) {}
+
   double sigma(double depth_m) const {
     return std::visit([depth_m](const auto& noise) { return noise.sigma(depth_m); }, model);
   }

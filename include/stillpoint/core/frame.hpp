@@ -58,4 +58,14 @@ struct FrameView {
   const ImageView& image() const noexcept { return gray.empty() ? colour : gray; }
 };
 
+/// The frame, with gray made of its colour where the host gave none.
+/// @param gray  where it is made; must outlive the view
+inline FrameView with_gray(FrameView frame, ImageBuffer& gray) {
+  if (frame.gray.empty()) {
+    gray_from_bgr(frame.colour, gray);
+    frame.gray = gray.view();
+  }
+  return frame;
+}
+
 }  // namespace stillpoint

@@ -10,6 +10,7 @@
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/motion.hpp"
 
 namespace stillpoint {
 
@@ -41,7 +42,20 @@ class FrameHistory {
   /// The frame `age` frames before the current one: 1 is the last, size() the oldest.
   const PastFrame& back(std::size_t age) const noexcept { return ring_[(head_ + ring_.size() - age) % ring_.size()]; }
 
-  /// Copies a frame in; the oldest is overwritten when the ring is full.
+  /// The filter's own chained pose of the frame to which `motion` leads from the last one.
+  Pose filter_from_current(const Motion& motion) const {
+    return empty() ? Pose::Identity()
+                   : orthonormalized(back(1).filter_from_camera * motion.current_from_reference.inverse());
+  }
+
+  /// Copies a frame in; the oldest is overwritten when the ring is full. Where its motion is not known, the older ones
+  /// are forgotten: their poses are of another world now.
+  void push(const FrameView& frame, const Motion& motion) {
+    if (!motion.usable()) clear();
+    push(frame, filter_from_current(motion));
+  }
+
+  /// The same, with a pose.
   void push(const FrameView& frame, const Pose& filter_from_camera) {
     PastFrame& slot = ring_[head_];
     slot.gray.assign(frame.gray);

@@ -6,8 +6,10 @@
 
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
 
 namespace stillpoint {
 
@@ -31,5 +33,18 @@ struct has_keypoint_traits<Keypoint,
                                decltype(keypoint_traits<Keypoint>::pixel(std::declval<const Keypoint&>())), Vector2f>>>
     : std::true_type {};
 }  // namespace detail
+
+/// @param keypoints  any contiguous range of a type with `keypoint_traits`
+/// @param pixels     overwritten; its memory is reused
+template <class Keypoints>
+span<const Vector2f> read_pixels(const Keypoints& keypoints, std::vector<Vector2f>& pixels) {
+  using Keypoint = typename decltype(span(keypoints))::value_type;
+  static_assert(detail::has_keypoint_traits<Keypoint>::value,
+                "stillpoint: specialise stillpoint::keypoint_traits<YourKeypoint> with static Vector2f pixel(const "
+                "YourKeypoint&); see core/keypoint.hpp");
+  pixels.clear();
+  for (const Keypoint& keypoint : keypoints) pixels.push_back(keypoint_traits<Keypoint>::pixel(keypoint));
+  return pixels;
+}
 
 }  // namespace stillpoint

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "stillpoint/core/frame_history.hpp"
+#include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/regions.hpp"
@@ -83,27 +83,6 @@ template <class P> struct is_camera<P, std::enable_if_t<
     detail::returns<Vector2d, decltype(std::declval<const P&>().undistort(std::declval<const Vector2d&>()))> &&
     detail::returns<int, decltype(std::declval<const P&>().width())> &&
     detail::returns<int, decltype(std::declval<const P&>().height())>>> : std::true_type {};
-
-// What a stage may offer on top: found by its form, used where it is there.
-
-template <class P, class Camera, class Noise, class = void> struct looks_back : std::false_type {};
-template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise, std::void_t<decltype(
-    std::declval<P&>().look_back(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
-    std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(), std::declval<Matches&>(),
-    std::declval<Workspace&>()))>> : std::true_type {};
-
-template <class P, class Camera, class = void> struct refines : std::false_type {};
-template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
-    std::declval<Matches&>(), std::declval<const Regions&>(), std::declval<const Camera&>(), std::declval<Motion&>(),
-    std::declval<Workspace&>()))>> : std::true_type {};
-
-template <class P, class = void> struct recalls : std::false_type {};
-template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
-    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
-
-template <class P, class = void> struct recalls_surfaces : std::false_type {};
-template <class P> struct recalls_surfaces<P, std::void_t<decltype(std::declval<P&>().recall_surfaces(
-    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
 
 template <class Policies, class = void> struct has_history_length : std::false_type {};
 template <class Policies> struct has_history_length<Policies, std::enable_if_t<

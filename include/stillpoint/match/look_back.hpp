@@ -16,7 +16,6 @@
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
-#include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/patch.hpp"
 
@@ -89,7 +88,7 @@ class LookBack {
   template <class Camera>
   Ages choose_ages(const FrameHistory& history, const FrameView& current, const Camera& camera, const Matches& matches,
                    Workspace& workspace) const {
-    const double lateral_sigma_m = options.pixel_sigma * median_depth_m(matches, workspace) / camera.fx();
+    const double lateral_sigma_m = options.pixel_sigma * median_depth_m(matches.current, workspace) / camera.fx();
     const double wanted_s =
         std::min(options.detectable_sigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
     std::size_t oldest = 1;
@@ -99,15 +98,6 @@ class LookBack {
     for (const std::size_t age : {std::size_t{1}, between, oldest})
       if (ages.count == 0 || age > ages.frames[ages.count - 1]) ages.frames[ages.count++] = age;
     return ages;
-  }
-
-  static double median_depth_m(const Matches& matches, Workspace& workspace) {
-    const Workspace::Scope scope(workspace);
-    const span<double> depths = workspace.take<double>(matches.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      if (matches.current.has_depth(i)) depths[count++] = matches.current.depth_m[i];
-    return count > 0 ? median_in_place(depths.first(count)) : 0.0;
   }
 
   template <class Camera, class Noise>

@@ -9,10 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
-#include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/reprojection_refinement.hpp"
 
@@ -34,7 +34,7 @@ struct SupportConstraints {
   span<PointConstraint> from_matches(const Matches& matches, const Regions& regions, const Camera& camera,
                                      span<std::uint32_t> features, Workspace& workspace) const {
     const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
-    const double typical_m = median_depth_m(matches, workspace);
+    const double typical_m = typical_depth_m(matches, workspace);
     std::size_t count = 0;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i)) continue;
@@ -51,7 +51,7 @@ struct SupportConstraints {
     const span<const OlderFrame> frames = matches.sightings.frames();
     const std::size_t corners = matches.size() - matches.host_count;
     const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
-    const double typical_m = median_depth_m(matches, workspace);
+    const double typical_m = typical_depth_m(matches, workspace);
     std::size_t count = 0;
     for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
       for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -135,14 +135,11 @@ struct SupportConstraints {
     return point;
   }
 
-  static double median_depth_m(const Matches& matches, Workspace& workspace) {
-    const Workspace::Scope scope(workspace);
-    const span<double> depths = workspace.take<double>(matches.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      if (matches.current.has_depth(i)) depths[count++] = matches.current.depth_m[i];
-    constexpr double kRoom_m = 2.0;  // a guess for a scene without any depth
-    return count > 0 ? median_in_place(depths.first(count)) : kRoom_m;
+  /// The inverse depth of what has none is guessed around the median's.
+  static double typical_depth_m(const Matches& matches, Workspace& workspace) {
+    constexpr double kRoom_m = 2.0;  // for a scene without any depth
+    const double median_m = median_depth_m(matches.current, workspace);
+    return median_m > 0 ? median_m : kRoom_m;
   }
 };
 

@@ -5,8 +5,6 @@
 // How did the camera move?   Robust against dynamic majorities: support by area, trust from memory, the recent past as
 // the first hypothesis.
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +22,7 @@
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
 #include "stillpoint/motion/reprojection_refinement.hpp"
+#include "stillpoint/motion/small_linear_algebra.hpp"
 #include "stillpoint/motion/support_constraints.hpp"
 
 namespace stillpoint {
@@ -222,7 +221,7 @@ class SupportMotion {
 
   static Matrix6d covariance(const Matrix6d& information) {
     constexpr double kHold = 1e-6;  // what nothing is known of gets a kilometre
-    return (information + kHold * Matrix6d::Identity()).ldlt().solve(Matrix6d::Identity());
+    return Cholesky<6>(information + kHold * Matrix6d::Identity()).inverse();
   }
 };
 

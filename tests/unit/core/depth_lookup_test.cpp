@@ -125,5 +125,15 @@ TEST(Lift, WithoutADepthImageGivesPixelsOnly) {
   EXPECT_FALSE(observations.has_depth(0));
 }
 
+TEST(MedianDepth, CountsOnlyWhatHasADepth) {
+  Workspace workspace;
+  Observations observations;
+  observations.resize(5);
+  EXPECT_EQ(median_depth_m(observations, workspace), 0.0) << "no feature has a depth";
+  observations.depth_m = {3.0, 0.0, 1.0, 0.0, 2.0};
+  EXPECT_EQ(median_depth_m(observations, workspace), 2.0);
+  EXPECT_EQ(observations.depth_m[0], 3.0) << "sorted in a copy";
+}
+
 }  // namespace
 }  // namespace stillpoint

@@ -43,9 +43,9 @@ TEST(TimeOfFlightNoise, GrowsLinearly) {
 TEST(AnyDepthNoise, AsksTheModelItHolds) {
   AnyDepthNoise noise;
   EXPECT_EQ(noise.sigma(2.0), KinectNoise{}.sigma(2.0));
-  noise.model = StereoNoise{};
+  noise = StereoNoise{};
   EXPECT_EQ(noise.sigma(2.0), StereoNoise{}.sigma(2.0));
-  noise.model = TimeOfFlightNoise{};
+  noise = TimeOfFlightNoise{};
   EXPECT_EQ(noise.sigma(2.0), TimeOfFlightNoise{}.sigma(2.0));
 }
 

@@ -135,6 +135,27 @@ TEST(FrameHistory, IsARingOfCopiesNewestFirst) {
   EXPECT_EQ(FrameHistory(0).size(), 0u);
 }
 
+TEST(FrameHistory, ChainsMotionsAndForgetsWhatNoneLeadsTo) {
+  FrameHistory history(3);
+  const cv::Mat gray(2, 2, CV_8UC1, cv::Scalar(0));
+  const auto push = [&](double time_s, Status status, double step_m) {
+    Motion motion;
+    motion.status = status;
+    motion.current_from_reference.translation().x() = step_m;
+    history.push(FrameView(gray, DepthView(), time_s), motion);
+  };
+  push(1.0, Status::first_frame, 9.0);
+  EXPECT_EQ(history.back(1).filter_from_camera.translation().x(), 0.0) << "the first frame is the world";
+  push(1.1, Status::ok, -0.25);
+  push(1.2, Status::ok, -0.5);
+  // Points that move by −x in the camera: the camera moves by +x.
+  EXPECT_EQ(history.back(1).filter_from_camera.translation().x(), 0.75);
+  EXPECT_EQ(history.back(2).filter_from_camera.translation().x(), 0.25);
+  push(1.3, Status::no_consensus, -1.0);
+  EXPECT_EQ(history.size(), 1u) << "the older frames are of another world";
+  EXPECT_EQ(history.back(1).timestamp_s, 1.3);
+}
+
 TEST(FrameHistory, ForgetsADepthThatIsGone) {
   FrameHistory history(1);
   const cv::Mat gray(2, 2, CV_8UC1, cv::Scalar(0)), depth(2, 2, CV_16UC1, cv::Scalar(5000));

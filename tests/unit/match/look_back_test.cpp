@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/match/grid_corners.hpp"
 #include "stillpoint/match/patch_matcher.hpp"

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
 namespace stillpoint {

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "motion_scene.hpp"
+#include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
 namespace stillpoint {

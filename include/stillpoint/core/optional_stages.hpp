@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a stage may offer on top of its contract: found by its form, used where it is there. docs/extending.md tells it
+// in prose.
+
+#include <type_traits>
+#include <utility>
+
+#include "stillpoint/core/frame_history.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/timings.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+// clang-format off
+
+template <class P, class Camera, class Noise, class = void> struct looks_back : std::false_type {};
+template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise, std::void_t<decltype(
+    std::declval<P&>().look_back(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
+    std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(), std::declval<Matches&>(),
+    std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class P, class Camera, class = void> struct refines : std::false_type {};
+template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
+    std::declval<Matches&>(), std::declval<const Regions&>(), std::declval<const Camera&>(), std::declval<Motion&>(),
+    std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class P, class = void> struct recalls : std::false_type {};
+template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
+    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class P, class = void> struct recalls_surfaces : std::false_type {};
+template <class P> struct recalls_surfaces<P, std::void_t<decltype(std::declval<P&>().recall_surfaces(
+    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
+
+// clang-format on
+
+/// A memory may know features before the motion is estimated: it fills `matches.trust`.
+template <class Memory>
+void recall(Memory& memory, Matches& matches, Workspace& workspace, Timings& timings) {
+  if constexpr (recalls<Memory>::value) timings.run(Stage::memory, [&] { memory.recall(matches, workspace); });
+}
+
+/// A matcher may look for every feature in older frames, now that the motion is known, and the motion may be refined by
+/// what it sees there.
+/// @param stages  a `FrameFilter`
+template <class Stages>
+void look_back(Stages& stages, const FrameHistory& history, const FrameView& frame, const Regions& regions,
+               Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
+  using Camera = typename Stages::Camera;
+  if constexpr (looks_back<typename Stages::Matcher, Camera, typename Stages::DepthNoise>::value) {
+    timings.run(Stage::match, [&] {
+      stages.matcher.look_back(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
+                               matches, workspace);
+    });
+    if constexpr (recalls_surfaces<typename Stages::Memory>::value)
+      timings.run(Stage::memory, [&] { stages.memory.recall_surfaces(matches, workspace); });
+    if constexpr (refines<typename Stages::EgoMotion, Camera>::value)
+      timings.run(Stage::motion, [&] { stages.ego_motion.refine(matches, regions, stages.camera, motion, workspace); });
+  }
+}
+
+}  // namespace stillpoint
