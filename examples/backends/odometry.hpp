@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A small RGB-D odometry: each frame's ORB corners are found again in the last keyframes by Lucas-Kanade; the
-// keyframes' depth makes points of them, and the pose is solved from the points. No map, no loop closing.
+// A small RGB-D odometry: each frame's ORB corners are found again in the nearest keyframes by Lucas-Kanade; the
+// keyframes' depth makes points of them, and the pose is solved from the points. A lost camera is looked for in all
+// keyframes by descriptors. No map, no loop closing.
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/mat.hpp>
@@ -19,21 +20,13 @@
 #include <utility>
 #include <vector>
 
+#include "keyframe.hpp"
 #include "pose_refinement.hpp"
-#include "stillpoint/core/compact.hpp"
 #include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace examples {
-
-/// ORB corners, one descriptor a row.
-struct OrbFeatures {
-  std::vector<cv::KeyPoint> keypoints;
-  cv::Mat descriptors;
-
-  void compact(span<const std::uint8_t> keep) { stillpoint::compact(keep, keypoints, descriptors); }
-};
 
 /// A backend of `FilteredTracker`. The world is the camera of the first frame that is tracked. Equal frames give equal
 /// bytes: nothing in it is drawn from a shared generator (solvePnPRansac seeds its own on every call).
@@ -47,13 +40,13 @@ class RgbdOdometry {
     std::size_t matched_keyframes = 3;
     std::size_t stored_keyframes = 20;  ///< where a lost camera is looked for
     double pixel_sigma = 0.5;           ///< of a Lucas-Kanade match
-    double depth_sigma_factor = 2.0;    ///< times KinectNoise: depth and colour are not taken at the same moment
-    double depth_step = 0.03;           ///< neighbours that differ by this share of the depth are an edge: no depth
-    double farthest_m = 6.0;            ///< depth beyond says little
-    double reprojection_px = 3.0;       ///< inlier limit of RANSAC
-    std::size_t fewest_features = 12;   ///< fewer that fit are no pose; at 20, one bad stretch loses it for good
-    double keyframe_share = 0.6;        ///< a new keyframe where the last explains less of the features with depth
-    double keyframe_motion = 0.15;      ///< or the camera has moved this far: metres plus radians
+    double depth_sigma_factor = 3.0;    ///< times KinectNoise: depth and colour are not taken at the same moment
+    DepthLimits depth_limits;
+    double reprojection_px = 3.0;      ///< inlier limit of RANSAC
+    std::size_t fewest_features = 12;  ///< fewer that fit are no pose
+    double fewest_share = 0.3;         ///< of the features that were found again: fewer that fit are no pose
+    double keyframe_share = 0.6;       ///< a new keyframe where the last explains less of the features with depth
+    double keyframe_motion = 0.15;     ///< or the camera has moved this far: metres plus radians
   };
   Options options;
   stillpoint::KinectNoise depth_noise;
@@ -79,14 +72,10 @@ class RgbdOdometry {
       return camera_from_world_.inverse();
     }
     Pose camera_from_world = stillpoint::orthonormalized(motion_ * camera_from_world_);
-    match_by_flow(current, camera_from_world);
-    if (!solve(current, camera_from_world)) {
-      match_by_descriptor(current);
-      if (!solve(current, camera_from_world)) {
-        motion_ = Pose::Identity();
-        lost_ = true;
-        return std::nullopt;
-      }
+    if (!solve_by_flow(current, camera_from_world) && !relocalize(current, camera_from_world)) {
+      motion_ = Pose::Identity();
+      lost_ = true;
+      return std::nullopt;
     }
     motion_ = lost_ ? Pose::Identity() : stillpoint::orthonormalized(camera_from_world * camera_from_world_.inverse());
     lost_ = false;
@@ -97,15 +86,6 @@ class RgbdOdometry {
   }
 
  private:
-  struct Keyframe {
-    OrbFeatures features;
-    std::vector<double> depth_m;   ///< of the features, 0 where there is none
-    std::vector<cv::Mat> pyramid;  ///< of the gray image
-    stillpoint::ImageBuffer depth;
-    double depth_factor = 1.0;
-    Pose world_from_camera = Pose::Identity();
-  };
-
   /// Where a sighting comes from: a feature of the current frame, found in a keyframe.
   struct Source {
     std::size_t feature;
@@ -128,32 +108,12 @@ class RgbdOdometry {
                                 cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
     current.depth.assign(frame.depth.image);
     current.depth_factor = frame.depth.factor;
-    for (const cv::KeyPoint& keypoint : features.keypoints) current.depth_m.push_back(depth_at(current, keypoint.pt));
+    for (const cv::KeyPoint& keypoint : features.keypoints)
+      current.depth_m.push_back(depth_at(current, keypoint.pt, options.depth_limits));
     return current;
   }
 
-  /// Mean depth of the 3x3 pixels, 0 where one of them has none or lies on another surface.
-  double depth_at(const Keyframe& frame, const cv::Point2f& pixel) const {
-    const stillpoint::DepthView depth(frame.depth.view(), frame.depth_factor);
-    const int u = cvRound(pixel.x), v = cvRound(pixel.y);
-    if (!depth.image.contains(u - 1, v - 1) || !depth.image.contains(u + 1, v + 1)) return 0.0;
-    const double centre_m = depth.metres(u, v);
-    if (!(centre_m > 0) || centre_m > options.farthest_m) return 0.0;
-    double sum_m = 0.0;
-    for (int dv = -1; dv <= 1; ++dv)
-      for (int du = -1; du <= 1; ++du) {
-        const double depth_m = depth.metres(u + du, v + dv);
-        if (!(depth_m > 0) || std::abs(depth_m - centre_m) > options.depth_step * centre_m) return 0.0;
-        sum_m += depth_m;
-      }
-    return sum_m / 9.0;
-  }
-
-  static std::size_t count_depths(const Keyframe& frame) {
-    std::size_t count = 0;
-    for (const double depth_m : frame.depth_m) count += depth_m > 0;
-    return count;
-  }
+  double depth_sigma(double depth_m) const { return options.depth_sigma_factor * depth_noise.sigma(depth_m); }
 
   Vector3d point(const cv::Point2f& pixel, double depth_m) const {
     return camera_.back_project(camera_.undistort({pixel.x, pixel.y}), depth_m);
@@ -165,20 +125,41 @@ class RgbdOdometry {
   }
 
   void add_sighting(const Keyframe& current, std::size_t feature, const Keyframe& keyframe, const cv::Point2f& there) {
-    const double depth_there_m = depth_at(keyframe, there);
+    const double depth_there_m = depth_at(keyframe, there, options.depth_limits);
     if (!(depth_there_m > 0)) return;
     const cv::Point2f& here = current.features.keypoints[feature].pt;
     const double depth_m = current.depth_m[feature];
-    sightings_.push_back({keyframe.world_from_camera * point(there, depth_there_m), camera_.undistort({here.x, here.y}),
-                          options.pixel_sigma, depth_m, options.depth_sigma_factor * depth_noise.sigma(depth_m)});
+    const Vector3d p_keyframe = point(there, depth_there_m);
+    const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(depth_there_m) / depth_there_m);
+    sightings_.push_back({keyframe.world_from_camera * p_keyframe, camera_.undistort({here.x, here.y}),
+                          options.pixel_sigma, depth_m, depth_sigma(depth_m),
+                          keyframe.world_from_camera.linear() * p_keyframe_sigma_m});
     sources_.push_back({feature, &keyframe});
   }
 
-  /// Finds the features in the latest keyframes, beginning where the predicted pose puts them.
-  void match_by_flow(const Keyframe& current, const Pose& camera_from_world) {
+  /// The pose from the keyframes that are nearest to the predicted one.
+  bool solve_by_flow(const Keyframe& current, Pose& camera_from_world) {
+    const Pose world_from_camera = camera_from_world.inverse();
+    std::vector<std::pair<double, const Keyframe*>> nearest;
+    for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe)
+      nearest.emplace_back(distance(world_from_camera, keyframe->world_from_camera), &*keyframe);
+    std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     forget_sightings();
-    const std::size_t first = keyframes_.size() - std::min(keyframes_.size(), options.matched_keyframes);
-    for (std::size_t i = first; i < keyframes_.size(); ++i) match_by_flow(current, camera_from_world, keyframes_[i]);
+    for (std::size_t i = 0; i < std::min(nearest.size(), options.matched_keyframes); ++i)
+      match_by_flow(current, camera_from_world, *nearest[i].second);
+    return solve(current, camera_from_world);
+  }
+
+  /// The pose from nothing but descriptors: the latest keyframe that gives one, if Lucas-Kanade then agrees.
+  bool relocalize(const Keyframe& current, Pose& camera_from_world) {
+    for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
+      match_by_descriptor(current, *keyframe);
+      Pose candidate = camera_from_world;
+      if (!solve(current, candidate) || !solve_by_flow(current, candidate)) continue;
+      camera_from_world = candidate;
+      return true;
+    }
+    return false;
   }
 
   void match_by_flow(const Keyframe& current, const Pose& camera_from_world, const Keyframe& keyframe) {
@@ -217,20 +198,17 @@ class RgbdOdometry {
     return found;
   }
 
-  /// Finds the features by their descriptors, anywhere in all stored keyframes: when no prediction helps.
-  void match_by_descriptor(const Keyframe& current) {
+  /// Finds the features by their descriptors, anywhere in a keyframe: when no prediction helps.
+  void match_by_descriptor(const Keyframe& current, const Keyframe& keyframe) {
     constexpr float kFarthest = 64.0f, kRatio = 0.8f;  // of 256 bits; to the second best (Lowe, 2004)
     forget_sightings();
-    if (current.features.keypoints.empty()) return;
-    const cv::BFMatcher matcher(cv::NORM_HAMMING);
+    if (current.features.keypoints.empty() || keyframe.features.keypoints.empty()) return;
     std::vector<std::vector<cv::DMatch>> matches;
-    for (const Keyframe& keyframe : keyframes_) {
-      matcher.knnMatch(current.features.descriptors, keyframe.features.descriptors, matches, 2);
-      for (const std::vector<cv::DMatch>& best : matches)
-        if (best.size() == 2 && best[0].distance < kFarthest && best[0].distance < kRatio * best[1].distance)
-          add_sighting(current, static_cast<std::size_t>(best[0].queryIdx), keyframe,
-                       keyframe.features.keypoints[static_cast<std::size_t>(best[0].trainIdx)].pt);
-    }
+    cv::BFMatcher(cv::NORM_HAMMING).knnMatch(current.features.descriptors, keyframe.features.descriptors, matches, 2);
+    for (const std::vector<cv::DMatch>& best : matches)
+      if (best.size() == 2 && best[0].distance < kFarthest && best[0].distance < kRatio * best[1].distance)
+        add_sighting(current, static_cast<std::size_t>(best[0].queryIdx), keyframe,
+                     keyframe.features.keypoints[static_cast<std::size_t>(best[0].trainIdx)].pt);
   }
 
   /// RANSAC, then refinement. Changes the pose only when enough features fit.
@@ -253,9 +231,19 @@ class RgbdOdometry {
     solution.linear() = stillpoint::rotation_from_vector({rotation[0], rotation[1], rotation[2]});
     solution.translation() = Vector3d(translation[0], translation[1], translation[2]);
     refine(sightings_, camera_, solution, inlier_);
-    if (count_fitting(current, nullptr) < options.fewest_features) return false;
+    const double fitting = static_cast<double>(count_fitting(current, nullptr));
+    if (fitting < static_cast<double>(options.fewest_features) ||
+        fitting < options.fewest_share * static_cast<double>(count_found(current)))
+      return false;
     camera_from_world = solution;
     return true;
+  }
+
+  /// How many features have a sighting at all.
+  std::size_t count_found(const Keyframe& current) const {
+    std::vector<std::uint8_t> found(current.depth_m.size(), 0);
+    for (const Source& source : sources_) found[source.feature] = 1;
+    return static_cast<std::size_t>(std::count(found.begin(), found.end(), std::uint8_t{1}));
   }
 
   /// How many features fit the pose, by any keyframe (null) or by one.
@@ -263,15 +251,12 @@ class RgbdOdometry {
     std::vector<std::uint8_t> fits(current.depth_m.size(), 0);
     for (std::size_t i = 0; i < sources_.size(); ++i)
       if (inlier_[i] && (keyframe == nullptr || sources_[i].keyframe == keyframe)) fits[sources_[i].feature] = 1;
-    std::size_t count = 0;
-    for (const std::uint8_t flag : fits) count += flag;
-    return count;
+    return static_cast<std::size_t>(std::count(fits.begin(), fits.end(), std::uint8_t{1}));
   }
 
   bool wants_keyframe(const Keyframe& current) const {
     const Keyframe& last = keyframes_.back();
-    const Pose last_from_camera = last.world_from_camera.inverse() * current.world_from_camera;
-    const double motion = last_from_camera.translation().norm() + stillpoint::rotation_angle(last_from_camera.linear());
+    const double motion = distance(last.world_from_camera, current.world_from_camera);
     const double explained = static_cast<double>(count_fitting(current, &last));
     return motion > options.keyframe_motion ||
            explained < options.keyframe_share * static_cast<double>(count_depths(current));

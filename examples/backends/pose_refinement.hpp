@@ -30,17 +30,20 @@ struct PointSighting {
   double pixel_sigma = 1.0;  ///< standard deviation of `pixel`, each axis
   double depth_m = 0.0;      ///< along the optical axis, 0 where there is none
   double depth_sigma_m = 0.0;
+  Vector3d p_sigma_m = Vector3d::Zero();  ///< one standard deviation of `p_world` along the ray it was measured on
 };
 
-/// Finds the pose that explains the sightings best: least squares of pixel and depth errors over their standard
-/// deviations, with Huber's weight; sightings that fit badly are left out and may come back, round after round.
+/// Finds the pose that explains the sightings best: least squares of pixel and depth errors, whitened by the
+/// covariance of both the sighting and its point, with the weights of Student's t distribution (Kerl, Sturm, Cremers,
+/// "Robust Odometry Estimation for RGB-D Cameras", ICRA 2013); sightings that fit badly are left out and may come
+/// back, round after round.
 class PoseRefinement {
  public:
   struct Options {
     int rounds = 4;
-    int iterations = 8;          ///< at most, in each round
-    double chi_squared = 7.815;  ///< 95 % of a right sighting's errors are below this (three degrees of freedom)
-    double huber = 2.0;          ///< errors beyond this many standard deviations count linearly
+    int iterations = 8;             ///< at most, in each round
+    double chi_squared = 7.815;     ///< 95 % of a right sighting's errors are below this (three degrees of freedom)
+    double degrees_of_freedom = 5;  ///< of Student's distribution, as in the paper
   };
   Options options;
 
@@ -48,14 +51,15 @@ class PoseRefinement {
   /// @param inlier one flag a sighting: whether it fits the result
   /// @return how many do
   std::size_t operator()(span<const PointSighting> sightings, const Camera& camera, Pose& camera_from_world,
-                         std::vector<std::uint8_t>& inlier) const {
+                         std::vector<std::uint8_t>& inlier) {
     inlier.assign(sightings.size(), 1);
     std::size_t inliers = sightings.size();
     for (int round = 0; round < options.rounds && inliers >= 3; ++round) {
+      whiten(sightings, camera, camera_from_world);
       minimize(sightings, camera, inlier, camera_from_world);
       inliers = 0;
       for (std::size_t i = 0; i < sightings.size(); ++i) {
-        inlier[i] = error(sightings[i], camera, camera_from_world).squaredNorm() < options.chi_squared ? 1 : 0;
+        inlier[i] = error(sightings, i, camera, camera_from_world).squaredNorm() < options.chi_squared ? 1 : 0;
         inliers += inlier[i];
       }
     }
@@ -63,47 +67,70 @@ class PoseRefinement {
   }
 
  private:
-  using Jacobian = Eigen::Matrix<double, 3, 6>;
+  using Matrix3d = stillpoint::Matrix3d;
   using Matrix6d = stillpoint::Matrix6d;
   using Vector6d = stillpoint::Vector6d;
+  using Jacobian = Eigen::Matrix<double, 3, 6>;
+  static constexpr double kNearest_m = 0.05;
 
   /// Error of u, v and depth in standard deviations. Behind the camera it is beyond every limit.
-  static Vector3d error(const PointSighting& sighting, const Camera& camera, const Pose& camera_from_world) {
-    constexpr double kNearest_m = 0.05;
+  Vector3d error(span<const PointSighting> sightings, std::size_t i, const Camera& camera,
+                 const Pose& camera_from_world) const {
+    const PointSighting& sighting = sightings[i];
     const Vector3d p = camera_from_world * sighting.p_world;
     if (!(p.z() > kNearest_m)) return Vector3d::Constant(1e6);
-    const Vector2d pixel_error = (camera.project(p) - sighting.pixel) / sighting.pixel_sigma;
-    const double depth_error = sighting.depth_m > 0 ? (p.z() - sighting.depth_m) / sighting.depth_sigma_m : 0.0;
-    return {pixel_error.x(), pixel_error.y(), depth_error};
+    const Vector2d pixel_error = camera.project(p) - sighting.pixel;
+    const double depth_error = sighting.depth_m > 0 ? p.z() - sighting.depth_m : 0.0;
+    return whitening_[i] * Vector3d(pixel_error.x(), pixel_error.y(), depth_error);
   }
 
-  /// By the motion (translation, rotation vector) of the point in the camera's frame.
-  static Jacobian jacobian(const PointSighting& sighting, const Camera& camera, const Vector3d& p) {
-    Eigen::Matrix<double, 3, 6> point_by_motion;
-    point_by_motion << stillpoint::Matrix3d::Identity(), -stillpoint::skew(p);
-    stillpoint::Matrix3d error_by_point;
-    error_by_point << camera.fx() / p.z(), 0, -camera.fx() * p.x() / (p.z() * p.z()),  //
-        0, camera.fy() / p.z(), -camera.fy() * p.y() / (p.z() * p.z()),                //
-        0, 0, 1;
-    error_by_point.topRows<2>() /= sighting.pixel_sigma;
-    error_by_point.row(2) *= sighting.depth_m > 0 ? 1.0 / sighting.depth_sigma_m : 0.0;
-    return error_by_point * point_by_motion;
+  /// Of u, v and depth by the point in the camera's frame, in pixels and metres.
+  static Matrix3d image_by_point(const PointSighting& sighting, const Camera& camera, const Vector3d& p) {
+    Matrix3d result;
+    result << camera.fx() / p.z(), 0, -camera.fx() * p.x() / (p.z() * p.z()),  //
+        0, camera.fy() / p.z(), -camera.fy() * p.y() / (p.z() * p.z()),        //
+        0, 0, sighting.depth_m > 0 ? 1 : 0;
+    return result;
   }
 
-  /// Huber's cost: quadratic near zero, linear far away.
+  /// Of the error by the motion (translation, rotation vector) of the point in the camera's frame.
+  Jacobian jacobian(span<const PointSighting> sightings, std::size_t i, const Camera& camera, const Vector3d& p) const {
+    Jacobian point_by_motion;
+    point_by_motion << Matrix3d::Identity(), -stillpoint::skew(p);
+    return whitening_[i] * image_by_point(sightings[i], camera, p) * point_by_motion;
+  }
+
+  /// The inverse root of each error's covariance: what the pixel and the depth are wrong by, and the point, whose own
+  /// depth shows in the image the more, the farther the camera has gone aside.
+  void whiten(span<const PointSighting> sightings, const Camera& camera, const Pose& camera_from_world) {
+    whitening_.clear();
+    for (const PointSighting& sighting : sightings) {
+      const double depth_sigma = sighting.depth_m > 0 ? sighting.depth_sigma_m : 1.0;  // any: the error is 0
+      Matrix3d covariance = Vector3d(sighting.pixel_sigma, sighting.pixel_sigma, depth_sigma).cwiseAbs2().asDiagonal();
+      const Vector3d p = camera_from_world * sighting.p_world;
+      if (p.z() > kNearest_m) {
+        const Vector3d of_point =
+            image_by_point(sighting, camera, p) * (camera_from_world.linear() * sighting.p_sigma_m);
+        covariance += of_point * of_point.transpose();
+      }
+      whitening_.push_back(covariance.llt().matrixL().solve(Matrix3d::Identity()));
+    }
+  }
+
+  /// Minus the logarithm of Student's density of three errors, but for a constant.
   double cost(span<const PointSighting> sightings, const Camera& camera, const std::vector<std::uint8_t>& inlier,
               const Pose& camera_from_world) const {
+    const double freedom = options.degrees_of_freedom;
     double sum = 0.0;
-    for (std::size_t i = 0; i < sightings.size(); ++i) {
-      if (inlier[i] == 0) continue;
-      const double size = error(sightings[i], camera, camera_from_world).norm();
-      sum += size < options.huber ? 0.5 * size * size : options.huber * (size - 0.5 * options.huber);
-    }
+    for (std::size_t i = 0; i < sightings.size(); ++i)
+      if (inlier[i] != 0)
+        sum += 0.5 * (freedom + 3) * std::log1p(error(sightings, i, camera, camera_from_world).squaredNorm() / freedom);
     return sum;
   }
 
   void minimize(span<const PointSighting> sightings, const Camera& camera, const std::vector<std::uint8_t>& inlier,
                 Pose& camera_from_world) const {
+    const double freedom = options.degrees_of_freedom;
     double damping = 1e-4;
     double current_cost = cost(sightings, camera, inlier, camera_from_world);
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
@@ -111,9 +138,11 @@ class PoseRefinement {
       Vector6d gradient = Vector6d::Zero();
       for (std::size_t i = 0; i < sightings.size(); ++i) {
         if (inlier[i] == 0) continue;
-        const Vector3d e = error(sightings[i], camera, camera_from_world);
-        const Jacobian j = jacobian(sightings[i], camera, camera_from_world * sightings[i].p_world);
-        const double weight = e.norm() > options.huber ? options.huber / e.norm() : 1.0;
+        const Vector3d p = camera_from_world * sightings[i].p_world;
+        if (!(p.z() > kNearest_m)) continue;
+        const Vector3d e = error(sightings, i, camera, camera_from_world);
+        const Jacobian j = jacobian(sightings, i, camera, p);
+        const double weight = (freedom + 3) / (freedom + e.squaredNorm());
         hessian += weight * j.transpose() * j;
         gradient += weight * j.transpose() * e;
       }
@@ -139,6 +168,8 @@ class PoseRefinement {
     motion.translation() = step.head<3>();
     return stillpoint::orthonormalized(motion * camera_from_world);
   }
+
+  std::vector<Matrix3d> whitening_;  ///< one a sighting
 };
 
 }  // namespace examples
