@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "backends/pose_refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stillpoint/core/random.hpp"
+
+namespace {
+
+using examples::PointSighting;
+using examples::PoseRefinement;
+using stillpoint::Camera;
+using stillpoint::Pose;
+using stillpoint::Random;
+using stillpoint::Vector3d;
+
+Camera camera() { return Camera(525, 525, 319.5, 239.5, 640, 480); }
+
+Pose some_pose(Random& random) {
+  Pose pose = Pose::Identity();
+  const auto small = [&] { return 0.1 * (2.0 * random.uniform() - 1.0); };
+  pose.linear() = stillpoint::rotation_from_vector({small(), small(), small()});
+  pose.translation() = Vector3d(small(), small(), small());
+  return pose;
+}
+
+/// A point that `camera_from_world` sees somewhere in its picture, one to four metres away, with its exact depth.
+PointSighting sighting(Random& random, const Pose& camera_from_world) {
+  const Vector3d p = camera().back_project({640 * random.uniform(), 480 * random.uniform()}, 1 + 3 * random.uniform());
+  PointSighting result{camera_from_world.inverse() * p, camera().project(p)};
+  result.depth_m = p.z();
+  result.depth_sigma_m = 0.01;
+  return result;
+}
+
+double error_m(const Pose& found, const Pose& truth) { return (found.inverse() * truth).translation().norm(); }
+
+TEST(PoseRefinement, FindsThePoseOfExactSightings) {
+  Random random(1);
+  for (int run = 0; run < 50; ++run) {
+    const Pose truth = some_pose(random);
+    std::vector<PointSighting> sightings;
+    for (int i = 0; i < 40; ++i) sightings.push_back(sighting(random, truth));
+    Pose pose = Pose::Identity();
+    std::vector<std::uint8_t> inlier;
+    EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 40u);
+    EXPECT_LT(error_m(pose, truth), 1e-6);  // metres; the search ends at steps of 1e-7
+  }
+}
+
+TEST(PoseRefinement, WrongSightingsAreLeftOut) {
+  Random random(2);
+  for (int run = 0; run < 50; ++run) {
+    const Pose truth = some_pose(random);
+    std::vector<PointSighting> sightings;
+    for (int i = 0; i < 60; ++i) {
+      sightings.push_back(sighting(random, truth));
+      if (i % 4 == 0) sightings.back().pixel.x() += 30.0;
+    }
+    Pose pose = truth;
+    std::vector<std::uint8_t> inlier;
+    EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 45u);
+    for (std::size_t i = 0; i < inlier.size(); ++i) EXPECT_EQ(inlier[i], i % 4 == 0 ? 0 : 1);
+    EXPECT_LT(error_m(pose, truth), 1e-6);
+  }
+}
+
+// A camera that went 0.5 m aside sees a point, 2 m off in the old view, 525 * 0.5 / 2 = 131 px further left. With an
+// old depth that was 3 % (0.06 m) too long it expects 525 * 0.5 / 2.06 = 127.4 px, 3.8 px off: at 0.5 px far beyond the
+// limit of 2.8 deviations, but with 0.05 m for the depth's own deviation (3.3 px here) it is as good a sighting as any.
+TEST(PoseRefinement, AnUncertainPointMayMissItsPixel) {
+  Random random(3);
+  Pose truth = Pose::Identity();
+  truth.translation().x() = -0.5;
+  std::vector<PointSighting> sightings;
+  for (int i = 0; i < 40; ++i) {
+    sightings.push_back(sighting(random, truth));
+    sightings.back().pixel_sigma = 0.5;
+  }
+  const Vector3d p_world(0.3, 0.0, 2.0);
+  PointSighting too_long{1.03 * p_world, camera().project(truth * p_world), 0.5};
+  sightings.push_back(too_long);
+  too_long.p_sigma_m = p_world * (0.05 / p_world.z());
+  sightings.push_back(too_long);
+  Pose pose = truth;
+  std::vector<std::uint8_t> inlier;
+  EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 41u);
+  EXPECT_EQ(inlier[40], 0);
+  EXPECT_EQ(inlier[41], 1);
+}
+
+TEST(PoseRefinement, APointBehindTheCameraFitsNothing) {
+  Random random(4);
+  std::vector<PointSighting> sightings;
+  for (int i = 0; i < 20; ++i) sightings.push_back(sighting(random, Pose::Identity()));
+  sightings.push_back({Vector3d(0, 0, -1), {319.5, 239.5}});
+  sightings.back().p_sigma_m = Vector3d(0, 0, 1);
+  Pose pose = Pose::Identity();
+  std::vector<std::uint8_t> inlier;
+  EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 20u);
+  EXPECT_EQ(inlier.back(), 0);
+  EXPECT_LT(error_m(pose, Pose::Identity()), 1e-9);  // metres; it starts at the truth
+}
+
+}  // namespace
