@@ -97,11 +97,12 @@ class FrameFilter : private PolicyContract<Policies> {
       matcher.match(reference, frame, matches_);
       lift(frame, depth_lookup, camera, depth_noise, matches_.current);
       lift(reference, depth_lookup, camera, depth_noise, matches_.reference);
-      regions_.locate(matches_.current.pixel);
+      regions_.locate(matches_.current.pixel, matches_.current.depth_m);
     });
-    recall(memory, matches_, workspace_, timings);
+    const MotionPrior expected = expectation_.at(frame.timestamp_s);
+    survey(*this, history_, frame, expected, matches_, workspace_, timings);
     timings.run(Stage::motion, [&] {
-      motion = ego_motion.estimate(matches_, regions_, camera, expectation_.at(frame.timestamp_s), workspace_);
+      motion = ego_motion.estimate(matches_, regions_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
     if (!motion.usable()) return motion.status;

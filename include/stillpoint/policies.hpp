@@ -22,6 +22,7 @@
 #include "stillpoint/motion/rigid_motion.hpp"
 #include "stillpoint/motion/support_motion.hpp"
 #include "stillpoint/prior/box_prior.hpp"
+#include "stillpoint/prior/foreground_prior.hpp"
 #include "stillpoint/score/offset_score.hpp"
 #include "stillpoint/score/sighting_score.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
@@ -56,7 +57,7 @@ struct DefaultPolicies {
   using Camera = stillpoint::Camera;
   using DepthNoise = AnyDepthNoise;
   using DepthLookup = GuardedDepth;
-  using Prior = BoxPrior;
+  using Prior = ForegroundPrior;
   using Matcher = PatchMatcher;
   using EgoMotion = SupportMotion;
   using Scorer = SightingScore;

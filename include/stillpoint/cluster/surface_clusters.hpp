@@ -26,7 +26,7 @@ namespace stillpoint {
 class SurfaceClusters {
  public:
   struct Options {
-    std::size_t features_per_cluster = 20;
+    std::size_t features_per_cluster = 30;
     std::size_t fewest_clusters = 2;
     std::size_t fewest_members = 3;  ///< of each part of a split
     int max_iterations = 5;
@@ -35,14 +35,16 @@ class SurfaceClusters {
     double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond `nearest_m`: three Kinect sigmas
     double nearest_m = 0.4;
     float lowest = -2.0f, highest = 10.0f;  ///< a single score is held between these, nats
-    float own_share = 0.3f;        ///< of a feature's own score in its log-odds; the rest is its cluster's mean
-    float split_variance = 9.0f;   ///< a cluster whose scores vary less is one population, squared nats
-    float split_explained = 0.8f;  ///< share of the variance that two populations must explain
-    float neighbour_px = 25.0f;    ///< how far a feature without evidence looks for others
-    float neighbour_share = 0.7f;  ///< of their log-odds it takes over
-    float alone = -1.0f;           ///< log-odds of a feature that knows nothing and has no neighbours
-    float dynamic_shift = 0.3f;    ///< what a dynamic region adds to the log-odds
-    float movable_shift = 0.1f;
+    float own_share = 0.3f;         ///< of a feature's own score in its log-odds; the rest is its cluster's mean
+    float split_variance = 9.0f;    ///< a cluster whose scores vary less is one population, squared nats
+    float split_explained = 0.8f;   ///< share of the variance that two populations must explain
+    float neighbour_px = 25.0f;     ///< how far a feature without evidence looks for others
+    float neighbour_share = 0.7f;   ///< of their log-odds it takes over
+    float depthless_own = 0.4f;     ///< share of its own score in the log-odds of a feature without a depth
+    float depthless_shift = -2.0f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
+    float alone = -1.0f;            ///< log-odds of a feature that knows nothing and has no neighbours
+    float dynamic_shift = 0.8f;     ///< what a dynamic region adds to the log-odds
+    float movable_shift = 0.2f;
     float fixed_shift = -0.3f;
     std::uint64_t seed = Random::kDefaultSeed;
   };
@@ -63,10 +65,13 @@ class SurfaceClusters {
         label.log_odds = options.own_share * own + (1 - options.own_share) * common[i] - level;
         label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
       } else {
-        label.log_odds = from_neighbours(matches.current.pixel[i], grid, common, level);
-        label.reason = matches.state[i] == MatchState::outside ? Reason::outside_image : Reason::no_depth;
+        label.log_odds = without_depth(scores[i], matches.current.pixel[i], grid, common, level);
+        label.reason = scores[i].scored()                        ? Reason::consistent
+                       : matches.state[i] == MatchState::outside ? Reason::outside_image
+                                                                 : Reason::no_depth;
       }
       const Membership& region = regions.of_feature[i];
+      if (!matches.current.has_depth(i)) continue;  // may lie before or behind the thing in the box
       label.log_odds += region.in_dynamic   ? options.dynamic_shift
                         : region.in_movable ? options.movable_shift
                         : region.in_fixed   ? options.fixed_shift
@@ -167,6 +172,15 @@ class SurfaceClusters {
       best = {0.5f * (sorted[k - 1] + sorted[k]), low, high, mean};
     }
     return best;
+  }
+
+  /// Its own score, where a place was supposed for it, and its neighbours'.
+  float without_depth(const FeatureScore& score, const Vector2f& pixel, const PixelGrid& grid, span<const float> common,
+                      float level) const {
+    const float others = from_neighbours(pixel, grid, common, level);
+    const float own_share = score.scored() ? options.depthless_own : 0.0f;
+    const float own = score.scored() ? held(score) - level : 0.0f;
+    return own_share * own + (1.0f - own_share) * others + options.depthless_shift;
   }
 
   float from_neighbours(const Vector2f& pixel, const PixelGrid& grid, span<const float> common, float level) const {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 
@@ -43,6 +44,11 @@ struct GuardedDepth {
     }
     const bool one_surface = farthest - nearest <= options.jump_m + options.jump_per_square_m * centre * centre;
     return neighbours >= options.fewest_neighbours && one_surface ? centre : 0.0;
+  }
+
+  /// The same at a pixel of the gray image, whose depth image may have another size.
+  double at(const FrameView& frame, const Vector2f& pixel) const noexcept {
+    return frame.depth.empty() ? 0.0 : at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel));
   }
 };
 

@@ -20,10 +20,13 @@ namespace stillpoint {
 // clang-format off
 
 template <class P, class Camera, class Noise, class = void> struct looks_back : std::false_type {};
-template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise, std::void_t<decltype(
-    std::declval<P&>().look_back(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
+template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise, std::void_t<
+    decltype(std::declval<P&>().survey(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
     std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(), std::declval<Matches&>(),
-    std::declval<Workspace&>()))>> : std::true_type {};
+    std::declval<Workspace&>())),
+    decltype(std::declval<P&>().look_back(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
+    std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(),
+    std::declval<Matches&>()))>> : std::true_type {};
 
 template <class P, class Camera, class = void> struct refines : std::false_type {};
 template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
@@ -34,21 +37,28 @@ template <class P, class = void> struct recalls : std::false_type {};
 template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
     std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
 
-template <class P, class = void> struct recalls_surfaces : std::false_type {};
-template <class P> struct recalls_surfaces<P, std::void_t<decltype(std::declval<P&>().recall_surfaces(
-    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
-
 // clang-format on
 
-/// A memory may know features before the motion is estimated: it fills `matches.trust`.
-template <class Memory>
-void recall(Memory& memory, Matches& matches, Workspace& workspace, Timings& timings) {
-  if constexpr (recalls<Memory>::value) timings.run(Stage::memory, [&] { memory.recall(matches, workspace); });
+/// Before the motion: a matcher may survey older frames, and a memory may know features and surfaces; it fills their
+/// trust.
+/// @param stages  a `FrameFilter`
+template <class Stages>
+void survey(Stages& stages, const FrameHistory& history, const FrameView& frame, const MotionPrior& expected,
+            Matches& matches, Workspace& workspace, Timings& timings) {
+  using Memory = typename Stages::Memory;
+  if constexpr (looks_back<typename Stages::Matcher, typename Stages::Camera, typename Stages::DepthNoise>::value) {
+    Motion motion;
+    if (expected.current_from_reference) motion.current_from_reference = *expected.current_from_reference;
+    timings.run(Stage::match, [&] {
+      stages.matcher.survey(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
+                            matches, workspace);
+    });
+  }
+  if constexpr (recalls<Memory>::value) timings.run(Stage::memory, [&] { stages.memory.recall(matches, workspace); });
 }
 
-/// A matcher may look for every feature in older frames, now that the motion is known, and the motion may be refined by
-/// what it sees there.
-/// @param stages  a `FrameFilter`
+/// After it: the matcher looks for every feature in the older frames, and the motion may be refined by what is seen
+/// there.
 template <class Stages>
 void look_back(Stages& stages, const FrameHistory& history, const FrameView& frame, const Regions& regions,
                Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
@@ -56,10 +66,8 @@ void look_back(Stages& stages, const FrameHistory& history, const FrameView& fra
   if constexpr (looks_back<typename Stages::Matcher, Camera, typename Stages::DepthNoise>::value) {
     timings.run(Stage::match, [&] {
       stages.matcher.look_back(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
-                               matches, workspace);
+                               matches);
     });
-    if constexpr (recalls_surfaces<typename Stages::Memory>::value)
-      timings.run(Stage::memory, [&] { stages.memory.recall_surfaces(matches, workspace); });
     if constexpr (refines<typename Stages::EgoMotion, Camera>::value)
       timings.run(Stage::motion, [&] { stages.ego_motion.refine(matches, regions, stages.camera, motion, workspace); });
   }

@@ -54,6 +54,13 @@ struct Detection {
   Box box;
   Mobility mobility = Mobility::unknown;
   float confidence = 1.0f;  ///< 0 to 1
+  double nearest_m = 0.0;   ///< depth of the thing itself: what is nearer or farther in its box is something else …
+  double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres
+
+  /// Features without a depth (0) are taken to be of the thing.
+  bool holds(const Vector2f& pixel, double depth_m) const noexcept {
+    return box.contains(pixel) && (!(depth_m > 0.0) || (depth_m >= nearest_m && depth_m <= farthest_m));
+  }
 };
 
 /// How one feature lies to the regions.
@@ -74,7 +81,8 @@ struct Regions {
   std::vector<Membership> of_feature;  ///< one entry a feature, filled by `locate`
 
   /// Finds the regions of each feature. O(features × regions).
-  void locate(span<const Vector2f> pixels) {
+  /// @param depth_m  of each feature, 0 none; or none of them at all
+  void locate(span<const Vector2f> pixels, span<const double> depth_m = {}) {
     of_feature.assign(pixels.size(), Membership{});
     for (std::size_t r = 0; r < detections.size(); ++r) {
       const Detection& detection = detections[r];
@@ -82,7 +90,7 @@ struct Regions {
         Membership& feature = of_feature[i];
         if (detection.mobility == Mobility::fixed || detection.mobility == Mobility::dynamic)
           feature.edge_distance_px = std::min(feature.edge_distance_px, detection.box.edge_distance_px(pixels[i]));
-        if (!detection.box.contains(pixels[i])) continue;
+        if (!detection.holds(pixels[i], depth_m.empty() ? 0.0 : depth_m[i])) continue;
         if (detection.mobility == Mobility::fixed) feature.in_fixed = true;
         if (detection.mobility == Mobility::movable) feature.in_movable = true;
         if (detection.mobility == Mobility::dynamic) {

@@ -47,6 +47,7 @@ struct SurfaceSighting {
 
 /// Everything that was looked for in one older frame.
 struct OlderFrame {
+  std::size_t age = 1;                             ///< frames back: 1 is the last
   Pose reference_from_current = Pose::Identity();  ///< that was assumed when looking, or a better one since
   double elapsed_s = 0;                            ///< from that frame to the current one
   std::vector<Sighting> of_feature;
@@ -57,12 +58,18 @@ struct OlderFrame {
 class Sightings {
  public:
   std::vector<SurfaceCell> surfaces;
+  /// What was looked for: the feature's point in the current camera, metres; for a feature without a depth a supposed
+  /// one on the surface beside it, NaN where there is none.
+  std::vector<Vector3d> point;
+  std::vector<double> inverse_depth_sigma;  ///< of 1 / point.z, per metre
 
   span<OlderFrame> frames() noexcept { return {frames_.data(), count_}; }
   span<const OlderFrame> frames() const noexcept { return {frames_.data(), count_}; }
 
   void clear() noexcept {
     surfaces.clear();
+    point.clear();
+    inverse_depth_sigma.clear();
     count_ = 0;
   }
 
@@ -70,6 +77,8 @@ class Sightings {
     if (count_ == frames_.size()) frames_.emplace_back();
     OlderFrame& frame = frames_[count_++];
     frame.of_feature.assign(feature_count, Sighting{});
+    point.resize(feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    inverse_depth_sigma.resize(feature_count, std::numeric_limits<double>::infinity());
     frame.of_surface.clear();
     return frame;
   }

@@ -22,7 +22,7 @@ class TailGate {
  public:
   struct Options {
     double false_positive_rate = 0.01;  ///< share of standing features that may be dropped, 1e-6 to 0.5
-    double level_of_one_percent = 3.3;  ///< s₁, nats
+    double level_of_one_percent = 2.3;  ///< s₁, nats
     double decay = 1.0;                 ///< nats in which the tail falls by e
   };
   Options options;

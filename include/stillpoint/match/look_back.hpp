@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What do older frames show where a standing feature should be?   Features with depth, the motion → sightings
+// What do older frames show where a standing feature should be?   Features, the motion → sightings
 //
 // A test per frame pair sees fast movers only; a slow one is found against a frame that is old enough for its step to
 // exceed the noise.
@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame_history.hpp"
@@ -18,10 +19,13 @@
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/surface_search.hpp"
+#include "stillpoint/match/surrounding_depth.hpp"
 
 namespace stillpoint {
 
-/// Looks for every feature with a depth at the places where a standing point would have been in older frames.
+/// Looks for every feature at the places where a standing point would have been in older frames. `survey` comes before
+/// the motion is estimated, `look_back` after.
 class LookBack {
  public:
   struct Options {
@@ -33,90 +37,132 @@ class LookBack {
     DepthTolerance same_surface;
     double occlusion_m = 0.15;      ///< a surface this much nearer hides the point …
     double occlusion_sigmas = 4.0;  ///< … and this many standard deviations of both depths more
-    int surface_step_px = 16;       ///< spacing of the surface cells
-    int surface_reach_px = 5;       ///< from a cell's centre to the pixels that span its normal
-    double steepest_cosine = 0.2;   ///< of a surface to the line of sight; steeper ones are left out
-    PatchSearch search = {3};       ///< a standing point is not three pixels away: more steps only find look-alikes
+    int occluder_reach_px = 8;      ///< what is nearer within this reach covers a part of the patch
+    int surrounding_px = 40;        ///< how far a feature without a depth looks for the surfaces beside it
+    double supposed_spread = 0.1;   ///< standard deviation of its inverse depth, of the supposed one
+    PatchSearch search = {3};       ///< a standing point is not three pixels away: more steps find look-alikes
   };
   Options options;
-  GuardedDepth guard;  ///< which depth of an older frame belongs to a pixel?
+  GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
+  SurfaceSearch surfaces;  ///< cells of smooth surface
 
+  /// Chooses the older frames, and finds the surfaces there.
+  /// @param filter_from_expected  where the camera is expected now
+  template <class Camera, class Noise>
+  void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
+              const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
+    matches.sightings.clear();
+    for (const std::size_t age : choose_ages(history, current, camera, matches, workspace)) {
+      if (age == 0) continue;
+      OlderFrame& older = matches.sightings.add(matches.size());
+      older.age = age;
+      older.elapsed_s = current.timestamp_s - history.back(age).timestamp_s;
+    }
+    surfaces.collect(current, camera, noise, matches.sightings.surfaces);
+    look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings);
+  }
+
+  /// Looks for the surfaces once more, and for the features.
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
-    Sightings& sightings = matches.sightings;
-    sightings.clear();
-    const Ages ages = choose_ages(history, current, camera, matches, workspace);
-    for (std::size_t a = 0; a < ages.count; ++a) {
-      const PastFrame& past = history.back(ages.frames[a]);
-      OlderFrame& older = sightings.add(matches.size());
-      older.reference_from_current = orthonormalized(past.filter_from_camera.inverse() * filter_from_current);
-      older.elapsed_s = current.timestamp_s - past.timestamp_s;
-    }
-    collect_surfaces(current, camera, noise, sightings);
-    for (std::size_t a = 0; a < ages.count; ++a) {
-      const FrameView past = history.back(ages.frames[a]).view();
-      OlderFrame& older = sightings.frames()[a];
-      for (const SurfaceCell& cell : sightings.surfaces)
-        older.of_surface.push_back(look_for_surface(cell, past, older.reference_from_current, camera, noise));
-    }
-    Patch patch;
+                 const Camera& camera, const Noise& noise, Matches& matches) const {
+    look_for_surfaces(history, filter_from_current, camera, noise, matches.sightings);
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (!matches.current.has_depth(i)) continue;
-      const Vector2f centre = matches.current.pixel[i].array().round();
-      const double depth_m = matches.current.depth_m[i];
-      const bool textured =
-          cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, options.same_surface), patch) &&
-          patch.count >= options.fewest_pixels;
-      const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
-      for (std::size_t a = 0; a < ages.count; ++a) {
-        OlderFrame& older = sightings.frames()[a];
-        older.of_feature[i] = look(point, matches.current.depth_sigma_m[i], textured ? &patch : nullptr,
-                                   history.back(ages.frames[a]).view(), older.reference_from_current, camera, noise);
+      if (matches.current.has_depth(i)) {
+        const double depth_m = matches.current.depth_m[i];
+        look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), history, current, camera, noise,
+             matches);
+      } else if (i < matches.host_count && matches.current.undistorted[i].allFinite()) {
+        look_beside(i, history, current, camera, noise, matches);
       }
     }
   }
 
  private:
-  struct Ages {
-    std::array<std::size_t, 3> frames{};
-    std::size_t count = 0;
-  };
-
-  /// The last frame, the oldest that is needed, and one between them (their geometric mean). The oldest is the first
-  /// against which the slowest mover of interest makes a detectable step at the scene's median depth.
+  /// The last frame, the oldest that is needed, and one between them (their geometric mean); 0 is none. The oldest is
+  /// the first against which the slowest mover of interest makes a detectable step at the scene's median depth.
   template <class Camera>
-  Ages choose_ages(const FrameHistory& history, const FrameView& current, const Camera& camera, const Matches& matches,
-                   Workspace& workspace) const {
+  std::array<std::size_t, 3> choose_ages(const FrameHistory& history, const FrameView& current, const Camera& camera,
+                                         const Matches& matches, Workspace& workspace) const {
     const double lateral_sigma_m = options.pixel_sigma * median_depth_m(matches.current, workspace) / camera.fx();
     const double wanted_s =
         std::min(options.detectable_sigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
     std::size_t oldest = 1;
     while (oldest < history.size() && current.timestamp_s - history.back(oldest).timestamp_s < wanted_s) ++oldest;
     const auto between = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(oldest))));
-    Ages ages;
-    for (const std::size_t age : {std::size_t{1}, between, oldest})
-      if (ages.count == 0 || age > ages.frames[ages.count - 1]) ages.frames[ages.count++] = age;
-    return ages;
+    return {1, between > 1 ? between : 0, oldest > between ? oldest : 0};
   }
 
   template <class Camera, class Noise>
-  Sighting look(const Vector3d& point, double depth_sigma_m, const Patch* patch, const FrameView& older,
-                const Pose& reference_from_current, const Camera& camera, const Noise& noise) const {
+  void look_for_surfaces(const FrameHistory& history, const Pose& filter_from_current, const Camera& camera,
+                         const Noise& noise, Sightings& sightings) const {
+    for (OlderFrame& older : sightings.frames()) {
+      const PastFrame& past = history.back(older.age);
+      const FrameView view = past.view();
+      older.reference_from_current = orthonormalized(past.filter_from_camera.inverse() * filter_from_current);
+      older.of_surface.clear();
+      for (const SurfaceCell& cell : sightings.surfaces)
+        older.of_surface.push_back(surfaces.look(cell, view, older.reference_from_current, camera, noise));
+    }
+  }
+
+  /// A feature without a depth lies on one of the surfaces beside it: the one on which it looks more as if it stood.
+  template <class Camera, class Noise>
+  void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
+                   const Noise& noise, Matches& matches) const {
+    const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i], options.surrounding_px, guard);
+    if (!(beside.farthest_m > 0)) return;
+    const auto dissimilarity_at = [&](double depth_m) {
+      return look(i, depth_m, options.supposed_spread / depth_m, history, current, camera, noise, matches);
+    };
+    const float far = dissimilarity_at(beside.farthest_m);
+    if (beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m)) return;
+    if (dissimilarity_at(beside.nearest_m) > far) dissimilarity_at(beside.farthest_m);
+  }
+
+  /// Looks for a feature in every older frame.
+  /// @return how dissimilar it is, summed over the frames; one where it can't be compared counts as unlike
+  template <class Camera, class Noise>
+  float look(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
+             const FrameView& current, const Camera& camera, const Noise& noise, Matches& matches) const {
+    Sightings& sightings = matches.sightings;
+    sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
+    sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
+    Patch patch;
+    const Vector2f centre = matches.current.pixel[i].array().round();
+    const bool textured =
+        cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, options.same_surface), patch) &&
+        patch.count >= options.fewest_pixels;
+    const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
+    float dissimilarity = 0;
+    for (OlderFrame& older : sightings.frames()) {
+      Sighting& sighting = older.of_feature[i];
+      sighting = look_in(history.back(older.age).view(), older.reference_from_current, point,
+                         inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
+      if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
+      dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : 1.0f;
+    }
+    return dissimilarity;
+  }
+
+  template <class Camera, class Noise>
+  Sighting look_in(const FrameView& older, const Pose& reference_from_current, const Vector3d& point,
+                   double depth_sigma_m, const Patch* patch, const Camera& camera, const Noise& noise) const {
     Sighting sighting;
     const Vector3d there = reference_from_current * point;
-    if (!(there.z() > kNearest_m)) return sighting;
+    if (!(there.z() > SurfaceSearch::kNearest_m)) return sighting;
     const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
     if (!(older.gray.border_distance_px(pixel.x(), pixel.y()) >= 1.0f)) return sighting;
-    const double measured_m = depth_at(older, pixel);
+    const double margin_m =
+        options.occlusion_m + options.occlusion_sigmas * std::hypot(noise.sigma(there.z()), depth_sigma_m);
+    const double measured_m = guard.at(older, pixel);
     if (measured_m > 0) {
-      const double sigma_m = noise.sigma(measured_m);
-      const double margin_m = options.occlusion_m + options.occlusion_sigmas * std::hypot(sigma_m, depth_sigma_m);
       sighting.depth_m = static_cast<float>(measured_m);
-      sighting.depth_sigma_m = static_cast<float>(sigma_m);
+      sighting.depth_sigma_m = static_cast<float>(noise.sigma(measured_m));
       sighting.state = measured_m < there.z() - margin_m ? SightingState::occluded : SightingState::seen;
     }
     if (patch == nullptr || sighting.state == SightingState::occluded) return sighting;
+    if (beside_occluder(older, pixel, there.z() - margin_m)) return sighting;
     PatchSearch search = options.search;
     search.warp = view_warp(camera, point, there, reference_from_current);
     const PatchFit fit = find_patch(*patch, older.gray, pixel, search);
@@ -127,9 +173,21 @@ class LookBack {
     return sighting;
   }
 
-  double depth_at(const FrameView& frame, const Vector2f& pixel) const noexcept {
-    if (frame.depth.empty()) return 0.0;
-    return guard.at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel));
+  /// Does something nearer cover a part of the patch? What a mover has just uncovered looks changed and stood still.
+  bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m) const noexcept {
+    if (frame.depth.empty() || options.occluder_reach_px <= 0) return false;
+    const DepthScale to_depth(frame.gray, frame.depth.image);
+    const RoundedDepth depth;
+    for (const int ring_px : {(options.occluder_reach_px + 1) / 2, options.occluder_reach_px}) {
+      for (int j = -1; j <= 1; ++j) {
+        for (int i = -1; i <= 1; ++i) {
+          const Vector2f offset(static_cast<float>(i * ring_px), static_cast<float>(j * ring_px));
+          const double depth_m = depth.at(frame.depth, to_depth(pixel + offset));
+          if (depth_m > 0 && depth_m < nearer_than_m) return true;
+        }
+      }
+    }
+    return false;
   }
 
   /// How a small step in the current image moves in the older one, for a surface that faces the camera.
@@ -143,46 +201,6 @@ class LookBack {
     step << here.z() / camera.fx(), 0, 0, here.z() / camera.fy(), 0, 0;
     return (projection * reference_from_current.linear() * step / there.z()).template cast<float>();
   }
-
-  /// Grid cells where depth is smooth, with the surface's normal from four neighbours.
-  template <class Camera, class Noise>
-  void collect_surfaces(const FrameView& current, const Camera& camera, const Noise& noise,
-                        Sightings& sightings) const {
-    const int step = options.surface_step_px, reach = options.surface_reach_px;
-    const auto point_at = [&](int u, int v) {
-      const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
-      return camera.back_project(camera.undistort(pixel.template cast<double>()), depth_at(current, pixel));
-    };
-    for (int v = step / 2; v < current.gray.height; v += step) {
-      for (int u = step / 2; u < current.gray.width; u += step) {
-        const Vector3d centre = point_at(u, v);
-        if (!(centre.z() > 0)) continue;
-        const Vector3d left = point_at(u - reach, v), right = point_at(u + reach, v);
-        const Vector3d above = point_at(u, v - reach), below = point_at(u, v + reach);
-        if (!(left.z() > 0 && right.z() > 0 && above.z() > 0 && below.z() > 0)) continue;
-        const double bend_m =
-            std::max(std::abs(left.z() + right.z() - 2 * centre.z()), std::abs(above.z() + below.z() - 2 * centre.z()));
-        if (bend_m > options.same_surface.at(centre.z())) continue;
-        const Vector3d normal = (right - left).cross(below - above).normalized();
-        if (!(std::abs(normal.dot(centre.normalized())) > options.steepest_cosine)) continue;
-        const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
-        sightings.surfaces.push_back({pixel, centre, normal, noise.sigma(centre.z()), 1.0f});
-      }
-    }
-  }
-
-  template <class Camera, class Noise>
-  SurfaceSighting look_for_surface(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
-                                   const Camera& camera, const Noise& noise) const {
-    const Vector3d there = reference_from_current * cell.point;
-    if (!(there.z() > kNearest_m)) return {};
-    const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>().array().round();
-    const double depth_m = depth_at(older, pixel);
-    if (!(depth_m > 0)) return {};
-    return {camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m), noise.sigma(depth_m)};
-  }
-
-  static constexpr double kNearest_m = 0.1;
 };
 
 }  // namespace stillpoint

@@ -18,11 +18,18 @@ struct PatchMatcher {
     corners.match(reference, current, matches);
   }
 
-  /// Fills `matches.sightings`.
+  /// Fills `matches.sightings` with frames and surfaces.
+  template <class Camera, class Noise>
+  void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
+              const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
+    older.survey(history, current, filter_from_expected, camera, noise, matches, workspace);
+  }
+
+  /// And with what became of every feature.
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
-    older.look_back(history, current, filter_from_current, camera, noise, matches, workspace);
+                 const Camera& camera, const Noise& noise, Matches& matches) const {
+    older.look_back(history, current, filter_from_current, camera, noise, matches);
   }
 
   void reset() noexcept { corners.reset(); }

@@ -25,13 +25,14 @@ namespace stillpoint {
 class EvidenceMemory {
  public:
   struct Options {
-    float persistence = 0.7f;    ///< share of the log-odds that is left after a frame
-    float most_log_odds = 6.0f;  ///< log-odds are held within ± this
-    float drop_above = 0.0f;     ///< a feature is dynamic above this …
-    float keep_below = -3.0f;    ///< … and stands still again below this, if it was dynamic before
-    float suspect_above = 1.0f;  ///< log-odds that make a feature suspect
+    float persistence = 0.7f;     ///< share of the log-odds that is left after a frame
+    float most_log_odds = 3.0f;   ///< log-odds are held within ± this
+    float drop_above = 0.0f;      ///< a feature is dynamic above this …
+    float keep_below = -2.0f;     ///< … and stands still again below this, if it was dynamic before
+    float suspect_above = 1.0f;   ///< log-odds that make a feature suspect
+    float suspicion_gain = 0.4f;  ///< what a frame adds: a flicker at a silhouette leaves no lasting suspicion
     float suspicion_persistence = 0.99f;
-    float least_trust = 0.01f;   ///< say of a feature of full suspicion
+    float least_trust = 0.02f;   ///< say of a feature of full suspicion
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
     float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
     float minority = 0.25f;      ///< share of suspect neighbours below which none is handed on; above 1 − this, all
@@ -40,7 +41,7 @@ class EvidenceMemory {
   };
   Options options;
 
-  /// Looks every feature up in what is remembered, and fills `matches.trust`.
+  /// Looks every feature and surface cell up in what is remembered, and fills their trust.
   void recall(Matches& matches, Workspace& workspace) {
     recalled_.assign(matches.size(), Memory{});
     if (pixel_.empty()) return;
@@ -51,13 +52,6 @@ class EvidenceMemory {
       recalled_[i] = look_up(grid, pixel, matches.current.depth_m[i]);
       matches.trust[i] = trust(recalled_[i].suspicion);
     }
-  }
-
-  /// The same for the surface cells, when they have been found.
-  void recall_surfaces(Matches& matches, Workspace& workspace) const {
-    if (pixel_.empty()) return;
-    const Workspace::Scope scope(workspace);
-    const PixelGrid grid(pixel_, options.neighbour_px, workspace, [](std::size_t) { return true; });
     for (SurfaceCell& cell : matches.sightings.surfaces)
       cell.trust = trust(look_up(grid, cell.pixel, cell.point.z()).suspicion);
   }
@@ -75,7 +69,9 @@ class EvidenceMemory {
           std::clamp(options.persistence * before.log_odds + now, -options.most_log_odds, options.most_log_odds);
       decide(label, now, before.log_odds > options.drop_above);
       memory_[i].log_odds = label.log_odds;
-      memory_[i].suspicion = label.log_odds > options.suspect_above ? 1.0f : before.suspicion;
+      memory_[i].suspicion = before.suspicion;
+      if (label.log_odds > options.suspect_above)
+        memory_[i].suspicion += options.suspicion_gain * (1.0f - before.suspicion);
     }
   }
 

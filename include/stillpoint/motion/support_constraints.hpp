@@ -26,7 +26,7 @@ struct SupportConstraints {
   double depthless_spread = 0.3;  ///< standard deviation of an unknown inverse depth, of the median one
   double dynamic_trust = 0.15;    ///< weight of what lies in a dynamic region
   double movable_trust = 0.6;     ///< and in a movable one
-  double surface_weight = 0.3;    ///< of a surface cell: depth errors of neighbours are not independent
+  double surface_weight = 0.8;    ///< of a surface cell: depth errors of neighbours are not independent
   float most_dissimilar = 0.25f;  ///< a sighting that is less alike says nothing of the motion
 
   /// The matches with the reference frame. `features[k]` is the feature of constraint k.

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -21,9 +20,9 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
-#include "stillpoint/motion/reprojection_refinement.hpp"
 #include "stillpoint/motion/small_linear_algebra.hpp"
 #include "stillpoint/motion/support_constraints.hpp"
+#include "stillpoint/motion/support_problem.hpp"
 
 namespace stillpoint {
 
@@ -38,7 +37,7 @@ class SupportMotion {
     double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
     double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
     double least_support = 0.08;    ///< share of all weight that the motion must explain
-    double undisputed_share = 0.985;  ///< suspects count in full while the trusted lose no more of their support
+    double undisputed_loss = 8.0;   ///< suspects count in full while they cost the trusted no more squared sigmas
     std::size_t fewest_matches = 6;
     std::uint64_t seed = Random::kDefaultSeed;
   };
@@ -57,23 +56,24 @@ class SupportMotion {
     motion.status = Status::too_few_matches;
     if (points.size() < options.fewest_matches) return motion;
 
+    auto problem = problem_of(points, matches, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
-    const Hypothesis past = polish(expected, points, camera);
-    const Hypothesis sampled = best_sample(matches, points, features, camera, past.support, workspace);
+    const Hypothesis past = polish(expected, problem);
+    const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
     const bool differ =
-        sampled.support > past.support && distance_px(sampled, past, points, camera) > options.same_motion_px;
+        sampled.support > past.support &&
+        problem.distance_px(sampled.reference_from_current, past.reference_from_current) > options.same_motion_px;
     const bool inverted = differ && past.support > options.past_preference * sampled.support;
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
-    const Hypothesis chosen = with_suspects(trusted, points, camera);
+    const Hypothesis chosen = with_suspects(trusted, kFarCutoffs, problem);
 
     double weight = 0;
     for (const PointConstraint& point : points) weight += point.weight;
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
-    if (!(chosen.support > options.least_support * weight) || !any_depth(matches)) return motion;
+    const bool explained = problem.point_support(chosen.reference_from_current) > options.least_support * weight;
+    if (!explained || !any_depth(matches)) return motion;
     motion.status = inverted ? Status::consensus_inverted : Status::ok;
-    const double limit = options.inlier_sigmas * options.inlier_sigmas;
-    for (const PointConstraint& point : points)
-      motion.inliers += squared_residual(point, chosen.reference_from_current, camera) < limit;
+    motion.inliers = problem.inliers(chosen.reference_from_current);
     motion.current_from_reference = orthonormalized(chosen.reference_from_current.inverse());
     motion.covariance = covariance(chosen.information);
     return motion;
@@ -87,51 +87,58 @@ class SupportMotion {
     const Workspace::Scope scope(workspace);
     const span<OlderFrame> frames = matches.sightings.frames();
     const span<PointConstraint> points = constraints.from_sightings(matches, regions, camera, workspace);
-    const span<PlaneConstraint> planes = constraints.from_surfaces(matches, workspace);
     if (frames.empty() || points.size() < options.fewest_matches * frames.size()) return;
-    const span<Pose> poses = workspace.take<Pose>(frames.size(), Pose::Identity());
-    for (std::size_t f = 0; f < frames.size(); ++f) poses[f] = frames[f].reference_from_current;
-    constexpr std::array<double, 3> kCutoffs{4.0, 3.0, 3.0};
-    const span<Pose> with_suspects = workspace.take<Pose>(frames.size(), Pose::Identity());
-    std::copy(poses.begin(), poses.end(), with_suspects.begin());
-    Matrix6d information = refine_reprojection(points, planes, poses, kCutoffs, camera);
-    if (information.isZero()) return;
-    swap_trust(points, planes);
-    const Matrix6d of_all = refine_reprojection(points, planes, with_suspects, kCutoffs, camera);
-    swap_trust(points, planes);
-    const double least = options.undisputed_share * support(poses, points, camera, 0.0);
-    if (!of_all.isZero() && support(with_suspects, points, camera, 0.0) > least) {
-      std::copy(with_suspects.begin(), with_suspects.end(), poses.begin());
-      information = of_all;
-    }
-    const Pose step = poses[0].inverse() * frames[0].reference_from_current;  // new current from old current
+    auto problem = problem_of(points, matches, camera, workspace);
+    Hypothesis trusted;
+    trusted.reference_from_current = frames[0].reference_from_current;
+    trusted.information = problem.refine(trusted.reference_from_current, kNearCutoffs);
+    if (trusted.information.isZero()) return;
+    trusted.support = problem.support(trusted.reference_from_current);
+    const Hypothesis chosen = with_suspects(trusted, kNearCutoffs, problem);
+    // New current from old current.
+    const Pose step = chosen.reference_from_current.inverse() * frames[0].reference_from_current;
     motion.current_from_reference = orthonormalized(step * motion.current_from_reference);
-    motion.covariance = covariance(information);
-    for (std::size_t f = 0; f < frames.size(); ++f) frames[f].reference_from_current = poses[f];
+    motion.covariance = covariance(chosen.information);
+    const Pose back = step.inverse();
+    for (OlderFrame& frame : frames)
+      frame.reference_from_current = orthonormalized(frame.reference_from_current * back);
   }
 
  private:
+  static constexpr std::array<double, 6> kFarCutoffs{12.0, 8.0, 6.0, 4.0, 4.0, 4.0};
+  static constexpr std::array<double, 3> kNearCutoffs{4.0, 3.0, 3.0};
+
   struct Hypothesis {
     Pose reference_from_current = Pose::Identity();
     Matrix6d information = Matrix6d::Zero();
-    double support = 0;  ///< Σ weight · (1 − squared residual / limit) over the inliers
+    double support = 0;
   };
 
-  /// To the weights as if nothing were suspect; a second call goes back.
-  static void swap_trust(span<PointConstraint> points, span<PlaneConstraint> planes) noexcept {
-    for (PointConstraint& point : points) std::swap(point.weight, point.trusted_weight);
-    for (PlaneConstraint& plane : planes) std::swap(plane.weight, plane.trusted_weight);
+  /// Points, and the surfaces that a survey has found, if there was one.
+  template <class Camera>
+  SupportProblem<Camera> problem_of(span<PointConstraint> points, const Matches& matches, const Camera& camera,
+                                    Workspace& workspace) const {
+    const span<const OlderFrame> frames = matches.sightings.frames();
+    const std::size_t count = std::max<std::size_t>(frames.size(), 1);
+    const span<Pose> poses = workspace.take<Pose>(count, Pose::Identity());
+    const span<Pose> links = workspace.take<Pose>(count, Pose::Identity());
+    for (std::size_t f = 0; f < frames.size(); ++f) poses[f] = frames[f].reference_from_current;
+    return {points, constraints.from_surfaces(matches, workspace), poses, links, camera, options.inlier_sigmas};
   }
 
   /// The motion with suspects in full, where the trusted do not object: what was seen moving is parked, and its points
-  /// are as good as any. Where they object, the trusted hypothesis as it is.
+  /// are as good as any. Where they object, the trusted hypothesis as it is. The loss of the trusted has a χ²
+  /// distribution of six degrees of freedom if all stand still.
   template <class Camera>
-  Hypothesis with_suspects(const Hypothesis& trusted, span<PointConstraint> points, const Camera& camera) const {
-    swap_trust(points, {});
-    Hypothesis all = polish(trusted.reference_from_current, points, camera);
-    swap_trust(points, {});
-    all.support = support(span<const Pose>(&all.reference_from_current, 1), points, camera, 0.0);
-    return all.support > options.undisputed_share * trusted.support ? all : trusted;
+  Hypothesis with_suspects(const Hypothesis& trusted, span<const double> cutoffs,
+                           SupportProblem<Camera>& problem) const {
+    Hypothesis all = trusted;
+    problem.swap_trust();
+    all.information = problem.refine(all.reference_from_current, cutoffs);
+    problem.swap_trust();
+    if (all.information.isZero()) return trusted;
+    all.support = problem.support(all.reference_from_current);
+    return problem.squared_residuals_of(trusted.support - all.support) < options.undisputed_loss ? all : trusted;
   }
 
   static bool any_depth(const Matches& matches) noexcept {
@@ -139,51 +146,37 @@ class SupportMotion {
   }
 
   template <class Camera>
-  Hypothesis polish(Pose reference_from_current, span<const PointConstraint> points, const Camera& camera) const {
-    constexpr std::array<double, 6> kCutoffs{12.0, 8.0, 6.0, 4.0, 4.0, 4.0};
+  Hypothesis polish(const Pose& reference_from_current, const SupportProblem<Camera>& problem) const {
     Hypothesis hypothesis;
-    hypothesis.information = refine_reprojection(points, {}, span<Pose>(&reference_from_current, 1), kCutoffs, camera);
     hypothesis.reference_from_current = reference_from_current;
-    hypothesis.support = support(span<const Pose>(&reference_from_current, 1), points, camera, 0.0);
+    hypothesis.information = problem.refine(hypothesis.reference_from_current, kFarCutoffs);
+    hypothesis.support = problem.support(hypothesis.reference_from_current);
     return hypothesis;
   }
 
-  /// @param to_beat  counting ends where this cannot be reached any more
+  /// The best motion of three points, polished; no support where none explains more points than `past`.
   template <class Camera>
-  double support(span<const Pose> poses, span<const PointConstraint> points, const Camera& camera,
-                 double to_beat) const {
-    const double limit = options.inlier_sigmas * options.inlier_sigmas;
-    double left = 0, sum = 0;
-    for (const PointConstraint& point : points) left += point.weight;
-    for (const PointConstraint& point : points) {
-      sum += point.weight * std::max(0.0, 1.0 - squared_residual(point, poses[point.frame], camera) / limit);
-      left -= point.weight;
-      if (sum + left < to_beat) return 0.0;
-    }
-    return sum;
-  }
-
-  /// The best motion of three points, polished; no support where none beats `to_beat`.
-  template <class Camera>
-  Hypothesis best_sample(const Matches& matches, span<const PointConstraint> points, span<const std::uint32_t> features,
-                         const Camera& camera, double to_beat, Workspace& workspace) const {
+  Hypothesis best_sample(const Matches& matches, span<const std::uint32_t> features, const Hypothesis& past,
+                         const SupportProblem<Camera>& problem, Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
+    const span<const PointConstraint> points = problem.points();
     const span<std::size_t> metric = workspace.take<std::size_t>(points.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < points.size(); ++k)
       if (matches.metric(features[k])) metric[count++] = k;
     if (count < 3) return {};
+    double to_beat = problem.point_support(past.reference_from_current);
     Random random(options.seed);
     std::optional<Pose> best;
     for (int trial = 0; trial < options.trials; ++trial) {
       const std::optional<Pose> pose = sample(matches, points, features, metric.first(count), random);
       if (!pose) continue;
-      const double found = support(span<const Pose>(&*pose, 1), points, camera, to_beat);
+      const double found = problem.point_support(*pose, to_beat);
       if (!(found > to_beat)) continue;
       to_beat = found;
       best = pose;
     }
-    return best ? polish(*best, points, camera) : Hypothesis{};
+    return best ? polish(*best, problem) : Hypothesis{};
   }
 
   /// Three metric matches, each accepted with the probability of its weight.
@@ -203,20 +196,6 @@ class SupportMotion {
     }
     if (count < 3) return std::nullopt;
     return kabsch(span<const Vector3d>(current.data(), 3), span<const Vector3d>(reference.data(), 3));
-  }
-
-  /// How far apart two hypotheses put the matches, on average; one that is wild counts ten pixels.
-  template <class Camera>
-  double distance_px(const Hypothesis& a, const Hypothesis& b, span<const PointConstraint> points,
-                     const Camera& camera) const {
-    constexpr double kFar_px = 10.0;
-    double sum = 0;
-    for (const PointConstraint& point : points) {
-      const Vector3d pa = a.reference_from_current * point.point, pb = b.reference_from_current * point.point;
-      const bool both = pa.z() > detail::kNearestDepth_m && pb.z() > detail::kNearestDepth_m;
-      sum += both ? std::min((camera.project(pa) - camera.project(pb)).norm(), kFar_px) : kFar_px;
-    }
-    return sum / static_cast<double>(points.size());
   }
 
   static Matrix6d covariance(const Matrix6d& information) {

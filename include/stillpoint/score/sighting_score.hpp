@@ -25,8 +25,9 @@ namespace stillpoint {
 class SightingScore {
  public:
   struct Options {
-    double pixel_sigma = 0.7;           ///< of a found patch, pixels
-    double drift_px_per_s = 1.5;        ///< what chained poses and rolling shutter add with time
+    double pixel_sigma = 1.0;           ///< of a found patch that looks unlike, pixels
+    double alike_share = 0.5;           ///< and of one that looks just alike, of that
+    double drift_px_per_s = 1.0;        ///< what chained poses and rolling shutter add with time
     double depth_sigmas = 1.5;          ///< measured depth noise over the model's
     double depth_floor_m = 0.004;       ///< and what is left when the model's is nothing
     double dissimilarity_scale = 0.12;  ///< 1 − correlation that a standing patch exceeds with probability 1/e
@@ -65,15 +66,41 @@ class SightingScore {
     return focal_px * focal_px * (rotation + translation / (depth_m * depth_m));
   }
 
+  /// A patch that looks just alike is located better than one that does not.
+  double place_sigma_px(float dissimilarity, double elapsed_s) const noexcept {
+    const double unlike = std::min(1.0, static_cast<double>(dissimilarity) / options.dissimilarity_scale);
+    return options.pixel_sigma * (options.alike_share + (1.0 - options.alike_share) * unlike) +
+           options.drift_px_per_s * elapsed_s;
+  }
+
+  /// The squared whitened distance from where a standing point would be to where its patch was found.
+  /// @param there  the point in the older camera
+  /// @param spread ∂there for one standard deviation of the inverse depth: it moves the place along the epipolar line.
+  ///               Where the depth is only supposed, what is left is the distance from that line, as Sampson's.
+  template <class Camera>
+  static double squared_distance(const Vector3d& there, const Vector3d& spread, const Vector2f& found, double variance,
+                                 const Camera& camera) {
+    const Vector2d error = camera.project(there) - found.cast<double>();
+    const Vector2d along(camera.fx() * (spread.x() - there.x() / there.z() * spread.z()) / there.z(),
+                         camera.fy() * (spread.y() - there.y() / there.z() * spread.z()) / there.z());
+    // Sherman and Morrison: (v I + a aᵀ)⁻¹ = (I − a aᵀ / (v + aᵀa)) / v.
+    const double projected = along.dot(error);
+    return (error.squaredNorm() - projected * projected / (variance + along.squaredNorm())) / variance;
+  }
+
   template <class Camera>
   double evidence_of(const Sighting& sighting, const OlderFrame& frame, const Matches& matches, std::size_t i,
                      const Motion& motion, const Camera& camera) const {
-    const Vector3d there = frame.reference_from_current * matches.current.point[i];
+    const Vector3d& point = matches.sightings.point[i];
+    const Vector3d there = frame.reference_from_current * point;
     double evidence = 0;
     if (std::isfinite(sighting.dissimilarity)) {
-      const double sigma = options.pixel_sigma + options.drift_px_per_s * frame.elapsed_s;
+      const double sigma = place_sigma_px(sighting.dissimilarity, frame.elapsed_s);
       const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
-      const double squared = (camera.project(there) - sighting.found.cast<double>()).squaredNorm() / variance;
+      // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = (t − there) z.
+      const Vector3d spread =
+          (frame.reference_from_current.translation() - there) * (point.z() * matches.sightings.inverse_depth_sigma[i]);
+      const double squared = squared_distance(there, spread, sighting.found, variance, camera);
       const double look = static_cast<double>(sighting.dissimilarity) / options.dissimilarity_scale;
       evidence += std::min(0.5 * squared, options.most_from_place) + std::min(look, options.most_from_look) -
                   options.expected_patch;

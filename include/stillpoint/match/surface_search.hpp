@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Smooth pieces of surface, and what older frames show in their places: a witness of the camera's motion that counts
+// area, where there may be no corner at all.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/core/sightings.hpp"
+#include "stillpoint/match/patch.hpp"
+
+namespace stillpoint {
+
+/// A grid of cells over the image.
+struct SurfaceSearch {
+  int step_px = 24;              ///< spacing of the cells
+  int reach_px = 5;              ///< from a cell's centre to the pixels that span its normal
+  double steepest_cosine = 0.2;  ///< of a surface to the line of sight; steeper ones are left out
+  GuardedDepth guard;
+  DepthTolerance smooth;  ///< a surface may bend by so much within its reach
+
+  /// The cells of the current frame's grid where depth is smooth.
+  template <class Camera, class Noise>
+  void collect(const FrameView& current, const Camera& camera, const Noise& noise,
+               std::vector<SurfaceCell>& surfaces) const {
+    const auto point_at = [&](int u, int v) {
+      const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
+      return camera.back_project(camera.undistort(pixel.template cast<double>()), guard.at(current, pixel));
+    };
+    surfaces.clear();
+    for (int v = step_px / 2; v < current.gray.height; v += step_px) {
+      for (int u = step_px / 2; u < current.gray.width; u += step_px) {
+        const Vector3d centre = point_at(u, v);
+        if (!(centre.z() > 0)) continue;
+        const Vector3d left = point_at(u - reach_px, v), right = point_at(u + reach_px, v);
+        const Vector3d above = point_at(u, v - reach_px), below = point_at(u, v + reach_px);
+        if (!(left.z() > 0 && right.z() > 0 && above.z() > 0 && below.z() > 0)) continue;
+        const double bend_m =
+            std::max(std::abs(left.z() + right.z() - 2 * centre.z()), std::abs(above.z() + below.z() - 2 * centre.z()));
+        if (bend_m > smooth.at(centre.z())) continue;
+        const Vector3d normal = (right - left).cross(below - above).normalized();
+        if (!(std::abs(normal.dot(centre.normalized())) > steepest_cosine)) continue;
+        const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
+        surfaces.push_back({pixel, centre, normal, noise.sigma(centre.z()), 1.0f});
+      }
+    }
+  }
+
+  /// The surface that an older frame shows where a standing cell would have been.
+  template <class Camera, class Noise>
+  SurfaceSighting look(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
+                       const Camera& camera, const Noise& noise) const {
+    const Vector3d there = reference_from_current * cell.point;
+    if (!(there.z() > kNearest_m)) return {};
+    const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>().array().round();
+    const double depth_m = guard.at(older, pixel);
+    if (!(depth_m > 0)) return {};
+    return {camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m), noise.sigma(depth_m)};
+  }
+
+  static constexpr double kNearest_m = 0.1;
+};
+
+}  // namespace stillpoint
