@@ -44,6 +44,7 @@ class SurfaceClusters {
     float depthless_shift = -2.0f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
     float alone = -1.0f;            ///< log-odds of a feature that knows nothing and has no neighbours
     float dynamic_shift = 0.8f;     ///< what a dynamic region adds to the log-odds
+    float outside_shift = -1.0f;    ///< what lies in no region when a detector has found something dynamic
     float movable_shift = 0.2f;
     float fixed_shift = -0.3f;
     std::uint64_t seed = Random::kDefaultSeed;
@@ -58,6 +59,8 @@ class SurfaceClusters {
     const PixelGrid grid(matches.current.pixel, options.neighbour_px, workspace,
                          [&](std::size_t i) { return !std::isnan(common[i]); });
     const auto level = static_cast<float>(threshold.level);
+    const bool any_dynamic = std::any_of(regions.detections.begin(), regions.detections.end(),
+                                         [](const Detection& found) { return found.mobility == Mobility::dynamic; });
     for (std::size_t i = 0; i < matches.size(); ++i) {
       Label& label = labels[i];
       if (!std::isnan(common[i])) {
@@ -75,6 +78,7 @@ class SurfaceClusters {
       label.log_odds += region.in_dynamic   ? options.dynamic_shift
                         : region.in_movable ? options.movable_shift
                         : region.in_fixed   ? options.fixed_shift
+                        : any_dynamic       ? options.outside_shift
                                             : 0.0f;
     }
   }

@@ -37,7 +37,7 @@ class SupportMotion {
     double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
     double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
     double least_support = 0.08;    ///< share of all weight that the motion must explain
-    double undisputed_loss = 8.0;   ///< suspects count in full while they cost the trusted no more squared sigmas
+    double undisputed_loss = 20.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
     std::size_t fewest_matches = 6;
     std::uint64_t seed = Random::kDefaultSeed;
   };
