@@ -62,13 +62,13 @@ void survey(Stages& stages, const FrameHistory& history, const FrameView& frame,
 template <class Stages>
 void look_back(Stages& stages, const FrameHistory& history, const FrameView& frame, const Regions& regions,
                Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
-  using Camera = typename Stages::Camera;
-  if constexpr (looks_back<typename Stages::Matcher, Camera, typename Stages::DepthNoise>::value) {
+  using StageCamera = typename Stages::Camera;
+  if constexpr (looks_back<typename Stages::Matcher, StageCamera, typename Stages::DepthNoise>::value) {
     timings.run(Stage::match, [&] {
       stages.matcher.look_back(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
                                matches);
     });
-    if constexpr (refines<typename Stages::EgoMotion, Camera>::value)
+    if constexpr (refines<typename Stages::EgoMotion, StageCamera>::value)
       timings.run(Stage::motion, [&] { stages.ego_motion.refine(matches, regions, stages.camera, motion, workspace); });
   }
 }

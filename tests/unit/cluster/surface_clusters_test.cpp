@@ -37,7 +37,10 @@ class SurfaceClustersTest : public testing::Test {
     options.neighbour_px = 25.0f;
     options.neighbour_share = 0.5f;
     options.alone = -1.0f;
+    options.depthless_own = 0.25f;
+    options.depthless_shift = 0.0f;
     options.dynamic_shift = 0.6f;
+    options.outside_shift = 0.0f;
     options.movable_shift = 0.2f;
     options.fixed_shift = -0.3f;
   }
@@ -154,11 +157,37 @@ TEST_F(SurfaceClustersTest, ThePriorShiftsTheOddsOnce) {
   const float shift[] = {0.6f, 0.2f, -0.3f, 0.0f};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_NEAR(labels_[i].log_odds, -1.0f + shift[i], kRounding) << i;
-    EXPECT_NEAR(labels_[4 + i].log_odds, -0.5f + shift[i], kRounding) << "without a depth, neighbours' half";
+    EXPECT_NEAR(labels_[4 + i].log_odds, -0.5f, kRounding) << "without a depth it may lie beside the thing in the box";
   }
 }
 
 // Weights (1 − d² / 25²)²: neighbours at 0 and at 15 px (0.64² = 0.4096) with log-odds of their clusters 7 and −1.
+// Where a detector has found a person, the rest is rather static; where it has found chairs only, that says nothing.
+TEST_F(SurfaceClustersTest, OutsideOfDynamicRegionsThingsRatherStand) {
+  clusters_.options.outside_shift = -0.75f;
+  for (int i = 0; i < 4; ++i) add({300 + 5.0f * static_cast<float>(i), 100}, 2.0, 0.0f);
+  regions_.detections = {{{0, 0, 50, 50}, Mobility::movable, 1.0f}};
+  classify();
+  EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding);
+  regions_.detections.push_back({{100, 0, 50, 50}, Mobility::dynamic, 1.0f});
+  classify();
+  EXPECT_NEAR(labels_[0].log_odds, -1.75f, kRounding);
+}
+
+// Neighbours say (0 − 1) · 0.5 = −0.5. With a score of 5 of its own: 0.25 · (5 − 1) + 0.75 · (−0.5) = 0.625; and two
+// less.
+TEST_F(SurfaceClustersTest, AFeatureWithASupposedDepthAnswersForItselfToo) {
+  clusters_.options.depthless_shift = -2.0f;
+  for (int i = 0; i < 6; ++i) add({100, 100}, 2.0, 0.0f);
+  add({100, 100}, 0.0, kNaN);
+  add({100, 100}, 0.0, 5.0f);
+  classify();
+  EXPECT_NEAR(labels_[6].log_odds, -2.5f, kRounding);
+  EXPECT_EQ(labels_[6].reason, Reason::no_depth);
+  EXPECT_NEAR(labels_[7].log_odds, 0.625f - 2.0f, kRounding);
+  EXPECT_EQ(labels_[7].reason, Reason::consistent);
+}
+
 TEST_F(SurfaceClustersTest, FeaturesWithoutDepthAskTheirNeighbours) {
   for (int i = 0; i < 3; ++i) add({100, 100}, 1.0, 8.0f);
   for (int i = 0; i < 3; ++i) add({115, 100}, 1.0, 0.0f);

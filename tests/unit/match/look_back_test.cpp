@@ -44,7 +44,7 @@ std::vector<double> ages(double rate_hz, int frames, double depth_m, double long
   matches.begin(std::vector<Vector2f>{{30, 20}});
   lift(current, GuardedDepth(), camera, KinectNoise(), matches.current);
   Workspace workspace;
-  look_back.look_back(history, current, Pose::Identity(), camera, KinectNoise(), matches, workspace);
+  look_back.survey(history, current, Pose::Identity(), camera, KinectNoise(), matches, workspace);
   std::vector<double> elapsed_s;
   for (const OlderFrame& frame : matches.sightings.frames()) elapsed_s.push_back(frame.elapsed_s);
   return elapsed_s;
@@ -93,7 +93,8 @@ class LookBackTest : public testing::Test {
     const FrameView current(gray_, DepthView(depth_), 1.1);
     matches_.begin(std::vector<Vector2f>{pixel});
     lift(current, GuardedDepth(), camera_, noise_, matches_.current);
-    look_back_.look_back(history, current, filter_from_current_, camera_, noise_, matches_, workspace_);
+    look_back_.survey(history, current, filter_from_current_, camera_, noise_, matches_, workspace_);
+    look_back_.look_back(history, current, filter_from_current_, camera_, noise_, matches_);
     EXPECT_EQ(matches_.sightings.frames().size(), 1u);
     return matches_.sightings.frames()[0].of_feature[0];
   }
@@ -156,6 +157,41 @@ TEST_F(LookBackTest, FreeSpaceIsSeenAndOcclusionSaysNothing) {
   EXPECT_EQ(look({80, 60}).state, SightingState::occluded);
 }
 
+// A person stood at 70 px and less in the older frame: 8 px of reach from 77, not from 79, and the depth in the place
+// of the point itself says as much as ever.
+TEST_F(LookBackTest, APatchThatWasPartlyCoveredIsNotCompared) {
+  look_back_.options.occluder_reach_px = 8;
+  older_depth_.colRange(0, 70).setTo(1.0);
+  const Sighting covered = look({77, 60});
+  EXPECT_EQ(covered.state, SightingState::seen);
+  EXPECT_TRUE(std::isnan(covered.dissimilarity));
+  EXPECT_EQ(covered.depth_m, 2.0f);
+  EXPECT_LT(look({79, 60}).dissimilarity, 0.01f);
+  older_depth_.colRange(0, 70).setTo(1.9);
+  EXPECT_LT(look({77, 60}).dissimilarity, 0.01f) << "0.1 m nearer is no other surface";
+  look_back_.options.occluder_reach_px = 0;
+  older_depth_.colRange(0, 70).setTo(1.0);
+  EXPECT_LT(look({77, 60}).dissimilarity, 0.01f);
+}
+
+// The camera went 0.04 m to the right: a point at 2 m was 4 px, one at 1 m 8 px further right. The feature has no depth
+// and both surfaces beside it; it is found on the one that the older image agrees with.
+TEST_F(LookBackTest, AFeatureWithoutADepthLiesOnASurfaceBesideIt) {
+  depth_.colRange(60, 90).setTo(0.0);
+  depth_.colRange(90, 160).setTo(1.0);
+  filter_from_current_.translation().x() = 0.04;
+  older_depth_ = wall(0.0);
+  for (const double depth_m : {1.0, 2.0}) {
+    const auto shift = static_cast<float>(8.0 / depth_m);
+    older_gray_ = texture_.shifted(160, 120, {shift, 0});
+    const Sighting sighting = look({75, 60});
+    EXPECT_EQ(sighting.state, SightingState::seen);
+    EXPECT_EQ(matches_.sightings.point[0].z(), depth_m);
+    EXPECT_LT((sighting.found - Vector2f(75 + shift, 60)).norm(), 0.1f);
+    EXPECT_EQ(sighting.depth_m, 0.0f) << "a supposed depth agrees with nothing";
+  }
+}
+
 TEST_F(LookBackTest, WithoutAnOlderDepthThePatchIsComparedAllTheSame) {
   older_depth_ = wall(0.0);
   const Sighting sighting = look({80, 60});
@@ -180,7 +216,7 @@ TEST_F(LookBackTest, WithoutADepthOrOutOfViewNothingIsLookedFor) {
 }
 
 TEST_F(LookBackTest, SurfaceCellsLieOnSmoothDepthOnly) {
-  look_back_.options.surface_step_px = 16;
+  look_back_.surfaces.step_px = 16;
   look({80, 60});
   const std::vector<SurfaceCell>& cells = matches_.sightings.surfaces;
   EXPECT_EQ(cells.size(), 10u * 7u) << "the cells' centres are 8, 24, …, 152 and 8, …, 104: seven rows lie inside";
@@ -225,7 +261,8 @@ struct Rendered {
     LookBack look_back;
     look_back.options.slowest_m_s = 0.01;
     look_back.options.longest_s = 0.16;
-    look_back.look_back(history, frame.view(), frame.world_from_camera, scene.camera, noise, matches, workspace);
+    look_back.survey(history, frame.view(), frame.world_from_camera, scene.camera, noise, matches, workspace);
+    look_back.look_back(history, frame.view(), frame.world_from_camera, scene.camera, noise, matches);
   }
 
   int label(std::size_t i) const {

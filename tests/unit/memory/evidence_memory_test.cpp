@@ -31,6 +31,7 @@ class EvidenceMemoryTest : public testing::Test {
     memory_.options.drop_above = 0.0f;
     memory_.options.keep_below = -0.5f;
     memory_.options.suspect_above = 1.0f;
+    memory_.options.suspicion_gain = 1.0f;
     memory_.options.suspicion_persistence = 0.9f;
     memory_.options.least_trust = 0.1f;
     memory_.options.feature_px = 15.0f;
@@ -220,10 +221,21 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
     return surface;
   };
   matches_.sightings.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
-  memory_.recall_surfaces(matches_, workspace_);
+  memory_.recall(matches_, workspace_);
   EXPECT_NEAR(matches_.sightings.surfaces[0].trust, 1.0f - 0.9f * 0.9f, kRounding);
   EXPECT_EQ(matches_.sightings.surfaces[1].trust, 1.0f);
   EXPECT_EQ(matches_.sightings.surfaces[2].trust, 1.0f);
+}
+
+// A gain of 0.6: the first frame adds 0.6, which a majority of (0.6 − 0.25) / 0.5 = 0.7 hands on, times 0.9: 0.63. The
+// second makes it 0.63 + 0.6 · 0.37 = 0.852, all of which is handed on: 0.9.
+TEST_F(EvidenceMemoryTest, SuspicionGrowsFromFrameToFrame) {
+  memory_.options.suspicion_gain = 0.6f;
+  frame(2.0f);
+  frame(2.0f);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.63f, kRounding);
+  frame(2.0f);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
 }
 
 TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {

@@ -22,6 +22,7 @@ class SightingScoreTest : public testing::Test {
  protected:
   SightingScoreTest() {
     scorer_.options.pixel_sigma = 1.0;
+    scorer_.options.alike_share = 1.0;
     scorer_.options.drift_px_per_s = 2.0;
     scorer_.options.depth_sigmas = 1.0;
     scorer_.options.depth_floor_m = 0.0;
@@ -41,7 +42,9 @@ class SightingScoreTest : public testing::Test {
   /// Another older frame in which the feature was found `away` from its place, at a depth.
   Sighting& seen(const Vector2f& away, float dissimilarity, float depth_m = 0.0f, double elapsed_s = 0.0) {
     OlderFrame& frame = matches_.sightings.add(1);
-    frame.reference_from_current.setIdentity();
+    matches_.sightings.point[0] = point_;
+    matches_.sightings.inverse_depth_sigma[0] = inverse_depth_sigma_;
+    frame.reference_from_current = reference_from_current_;
     frame.elapsed_s = elapsed_s;
     frame.of_feature[0] = {SightingState::seen, dissimilarity, Vector2f(320, 240) + away, depth_m, 0.04f};
     return frame.of_feature[0];
@@ -62,6 +65,9 @@ class SightingScoreTest : public testing::Test {
   }
 
   Camera camera_{500, 500, 320, 240, 640, 480};
+  Vector3d point_{0, 0, 2};
+  double inverse_depth_sigma_ = 0;
+  Pose reference_from_current_ = Pose::Identity();
   SightingScore scorer_;
   Matches matches_;
   Motion motion_;
@@ -75,6 +81,28 @@ TEST_F(SightingScoreTest, PlaceAndLookAddUp) {
   EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding);
   EXPECT_NEAR(evidence({0, 2}, 0.05f), 2.0f + 0.5f - 1.5f, kRounding);
   EXPECT_NEAR(evidence({0, 0}, 0.0f), -1.5f, kRounding) << "a perfect sighting speaks for standing still";
+}
+
+// An alike patch has half of the noise, one that is half as unlike as the scale three quarters: 2 px are then d² = 16
+// and d² = (2 / 0.75)² = 7.11.
+TEST_F(SightingScoreTest, APatchThatLooksAlikeIsLocatedBetter) {
+  scorer_.options.alike_share = 0.5;
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 8.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({2, 0}, 0.05f), 0.5f * 64.0f / 9.0f + 0.5f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({2, 0}, 0.1f), 2.0f + 1.0f - 1.5f, kRounding);
+}
+
+// The older camera stood 0.1 m to the left: a point at 2 m is seen 500 · 0.1 / 2 = 25 px to the right there, and a
+// tenth of its inverse depth, 0.05 / m, is 500 · 0.1 · 0.05 = 2.5 px along the row. 5 px along it are then 25 / (1
+// + 2.5²) = 3.448, across it 25.
+TEST_F(SightingScoreTest, ASupposedDepthLeavesTheDistanceFromTheEpipolarLine) {
+  reference_from_current_.translation().x() = 0.1;
+  EXPECT_NEAR(evidence({25, 3}, 0.0f), 4.5f - 1.5f, kRounding) << "a known depth: 3 px";
+  inverse_depth_sigma_ = 0.05;
+  EXPECT_NEAR(evidence({30, 0}, 0.0f), 0.5f * 25.0f / 7.25f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({25, 3}, 0.0f), 4.5f - 1.5f, kRounding);
+  inverse_depth_sigma_ = 1e6;
+  EXPECT_NEAR(evidence({90, 3}, 0.0f), 4.5f - 1.5f, 1e-3f) << "all but unknown: only the row counts";
 }
 
 // σ = √(0.03² + 0.04²) = 0.05 m; 0.1 m of difference is d² = 4, two nats, of which one is expected.

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/prior/foreground_prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <opencv2/core.hpp>
+
+#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/opencv.hpp"
+
+namespace stillpoint {
+namespace {
+
+static_assert(is_prior<ForegroundPrior>::value);
+
+/// A person at 1.5 m, 30 px wide, before a wall at 3 m; the box is twice as wide.
+class ForegroundPriorTest : public testing::Test {
+ protected:
+  ForegroundPriorTest() {
+    depth_.setTo(3.0f);
+    depth_(cv::Rect(65, 20, 30, 80)).setTo(1.5f);
+    prior_.reach_m = 0.3;
+    prior_.detections = {{{50, 20, 60, 80}, Mobility::dynamic, 1.0f}};
+  }
+
+  Detection only(const cv::Mat& depth) {
+    Regions regions;
+    prior_.regions(FrameView(gray_, DepthView(depth), 0.0), regions);
+    EXPECT_EQ(regions.detections.size(), 1u);
+    return regions.detections.at(0);
+  }
+
+  cv::Mat gray_ = cv::Mat(120, 160, CV_8UC1, cv::Scalar(0)), depth_ = cv::Mat(120, 160, CV_32FC1);
+  ForegroundPrior prior_;
+};
+
+TEST_F(ForegroundPriorTest, TheMiddleOfABoxIsTheThing) {
+  const Detection person = only(depth_);
+  EXPECT_NEAR(person.nearest_m, 1.2, 1e-6);
+  EXPECT_NEAR(person.farthest_m, 1.8, 1e-6);
+  EXPECT_TRUE(person.holds({80, 60}, 1.5));
+  EXPECT_FALSE(person.holds({55, 60}, 3.0)) << "the wall past a shoulder";
+  EXPECT_FALSE(person.holds({80, 60}, 0.9)) << "what stands before the person";
+  EXPECT_FALSE(person.holds({130, 60}, 1.5)) << "outside the box";
+  EXPECT_TRUE(person.holds({80, 60}, 0.0)) << "without a depth nothing speaks against it";
+}
+
+TEST_F(ForegroundPriorTest, ADepthImageOfAnotherSizeHasTheSameFieldOfView) {
+  cv::Mat half(60, 80, CV_32FC1, cv::Scalar(3.0f));
+  half(cv::Rect(33, 10, 14, 40)).setTo(1.5f);
+  EXPECT_NEAR(only(half).farthest_m, 1.8, 1e-6);
+}
+
+TEST_F(ForegroundPriorTest, WithoutEnoughDepthTheWholeBoxIsTheThing) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(only(cv::Mat()).farthest_m, kInfinity);
+  depth_.setTo(0.0f);
+  EXPECT_EQ(only(depth_).farthest_m, kInfinity);
+  depth_(cv::Rect(75, 20, 10, 4)).setTo(1.5f);  // a twentieth of the box's height
+  EXPECT_EQ(only(depth_).farthest_m, kInfinity);
+}
+
+TEST_F(ForegroundPriorTest, ABoxOutsideTheImageHasNoDepth) {
+  prior_.detections[0].box = {-500, -500, 60, 80};
+  EXPECT_EQ(only(depth_).nearest_m, 0.0);
+}
+
+}  // namespace
+}  // namespace stillpoint
