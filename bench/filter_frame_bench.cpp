@@ -64,6 +64,7 @@ void BM_FilterFrame(benchmark::State& state) {
   state.counters["kept_share"] = kept / features;
   state.counters["without_matching_ms"] = benchmark::Counter(without_matching_ms, average);
 }
+BENCHMARK_TEMPLATE(BM_FilterFrame, DefaultPolicies)->Apply(both_clips);
 BENCHMARK_TEMPLATE(BM_FilterFrame, PaperPolicies)->Apply(both_clips);
 BENCHMARK_TEMPLATE(BM_FilterFrame, PaperRigidPolicies)->Apply(both_clips);
 

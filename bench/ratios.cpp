@@ -32,9 +32,6 @@
 namespace stillpoint::bench {
 namespace {
 
-using MeasuredPolicies = PaperPolicies;
-constexpr const char* kMeasuredPolicies = "PaperPolicies";
-
 struct Settings {
   std::filesystem::path folder;
   int repetitions = 5;
@@ -109,9 +106,11 @@ void print_errors(const std::deque<Pair>& pairs, bool metric) {
               median(theirs_deg), median(ours_way), metric ? "mm" : "deg (direction)", median(theirs_way));
 }
 
-void measure_filter(const Clip& clip, int repetitions) {
+/// @param prefix  of the lines' names
+template <class Policies>
+void measure_filter(const Clip& clip, int repetitions, const std::string& prefix) {
   const std::size_t frames = clip.frames.size();
-  FilterRun<MeasuredPolicies> run(clip);
+  FilterRun<Policies> run(clip);
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
@@ -137,9 +136,9 @@ void measure_filter(const Clip& clip, int repetitions) {
       rest.add(i - 1, timings.total_ms() - timings[Stage::match]);
     }
   }
-  std::printf("# filter_frame: %s; %zu of %zu frames were judged\n", kMeasuredPolicies, judged_frames, frames - 1);
-  print("filter_frame_vs_orb", ours, theirs);
-  print("stages_without_matching_vs_filter_frame", rest, whole);
+  print((prefix + "filter_frame_vs_orb").c_str(), ours, theirs);
+  std::printf("#   %zu of %zu frames were judged\n", judged_frames, frames - 1);
+  print((prefix + "stages_without_matching_vs_filter_frame").c_str(), rest, whole);
 }
 
 void measure_matching(const Clip& clip, int repetitions) {
@@ -198,7 +197,8 @@ void measure(const Settings& settings) {
               clip.name.c_str(), clip.frames.size(), clip.camera.width(), clip.camera.height(), kFeatures,
               settings.repetitions);
   std::printf("# %-38s %9s %9s %7s\n", "name", "ours_ms", "theirs_ms", "ratio");
-  measure_filter(clip, settings.repetitions);
+  measure_filter<DefaultPolicies>(clip, settings.repetitions, "");
+  measure_filter<PaperPolicies>(clip, settings.repetitions, "paper_");
   measure_matching(clip, settings.repetitions);
   measure_clustering(settings.repetitions);
   measure_motion(settings.repetitions);

@@ -100,6 +100,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
     auto& guard = filter.matcher.older.guard.options;
     guard.fewest_neighbours = 1;
     guard.jump_m = std::numeric_limits<double>::infinity();
+    filter.matcher.older.surfaces.guard.options = guard;
   }
   if (without("memory")) {
     auto& memory = filter.memory.options;
