@@ -35,12 +35,12 @@ class LookBack {
     double longest_s = 0.5;          ///< but no frame is older than this
     float fewest_pixels = 25;        ///< of a patch's 64 that must lie on the feature's surface
     DepthTolerance same_surface;
-    double occlusion_m = 0.15;      ///< a surface this much nearer hides the point …
-    double occlusion_sigmas = 4.0;  ///< … and this many standard deviations of both depths more
-    int occluder_reach_px = 8;      ///< what is nearer within this reach covers a part of the patch
-    int surrounding_px = 40;        ///< how far a feature without a depth looks for the surfaces beside it
-    double supposed_spread = 0.1;   ///< standard deviation of its inverse depth, of the supposed one
-    PatchSearch search = {3};       ///< a standing point is not three pixels away: more steps find look-alikes
+    double occlusion_m = 0.15;       ///< a surface this much nearer hides the point …
+    double occlusion_sigmas = 4.0;   ///< … and this many standard deviations of both depths more
+    int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
+    int surrounding_px = 40;         ///< how far a feature without a depth looks for the surfaces beside it
+    double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
+    PatchSearch search = {3, 0.1f};  ///< a standing point is not three pixels away: more steps find look-alikes
   };
   Options options;
   GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
@@ -153,8 +153,9 @@ class LookBack {
     if (!(there.z() > SurfaceSearch::kNearest_m)) return sighting;
     const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
     if (!(older.gray.border_distance_px(pixel.x(), pixel.y()) >= 1.0f)) return sighting;
+    const double sigma_m = noise.sigma(there.z());
     const double margin_m =
-        options.occlusion_m + options.occlusion_sigmas * std::hypot(noise.sigma(there.z()), depth_sigma_m);
+        options.occlusion_m + options.occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
     const double measured_m = guard.at(older, pixel);
     if (measured_m > 0) {
       sighting.depth_m = static_cast<float>(measured_m);

@@ -94,7 +94,7 @@ struct SupportConstraints {
 
  private:
   double depth_sigma_m(double here_m, double there_m) const noexcept {
-    return depth_sigmas * std::hypot(here_m, there_m);
+    return depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m);
   }
 
   void set_weight(PointConstraint& point, const Matches& matches, const Regions& regions,
