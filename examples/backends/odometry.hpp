@@ -45,6 +45,7 @@ class RgbdOdometry {
     double reprojection_px = 3.0;      ///< inlier limit of RANSAC
     std::size_t fewest_features = 12;  ///< fewer that fit are no pose
     double fewest_share = 0.3;         ///< of the features that were found again: fewer that fit are no pose
+    double expected_share = 0.5;       ///< of what fits the best pose: one near the expected pose is kept down to it
     double keyframe_share = 0.6;       ///< a new keyframe where the last explains less of the features with depth
     double keyframe_motion = 0.15;     ///< or the camera has moved this far: metres plus radians
   };
@@ -231,7 +232,18 @@ class RgbdOdometry {
     solution.linear() = stillpoint::rotation_from_vector({rotation[0], rotation[1], rotation[2]});
     solution.translation() = Vector3d(translation[0], translation[1], translation[2]);
     refine(sightings_, camera_, solution, inlier_);
-    const double fitting = static_cast<double>(count_fitting(current, nullptr));
+    double fitting = static_cast<double>(count_fitting(current, nullptr));
+    // The world and a mover may both explain many features: near the expected pose lies the world.
+    Pose expected = camera_from_world;
+    const std::vector<std::uint8_t> fits_solution = inlier_;
+    refine(sightings_, camera_, expected, inlier_);
+    const double fitting_expected = static_cast<double>(count_fitting(current, nullptr));
+    if (fitting_expected > options.expected_share * fitting) {
+      solution = expected;
+      fitting = fitting_expected;
+    } else {
+      inlier_ = fits_solution;
+    }
     if (fitting < static_cast<double>(options.fewest_features) ||
         fitting < options.fewest_share * static_cast<double>(count_found(current)))
       return false;
