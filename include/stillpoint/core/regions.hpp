@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
@@ -49,6 +50,20 @@ struct Box {
   }
 };
 
+/// What of a box is the thing itself: a raster stretched over the box, so that it moves and grows with it.
+struct BoxMask {
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> inside;  ///< row by row, 0 is not the thing
+
+  /// @param x, y  share of the box's width and height, 0 to 1
+  bool at(float x, float y) const noexcept {
+    const auto cell = [](float share, int count) {
+      return std::min(static_cast<int>(share * static_cast<float>(count)), count - 1);
+    };
+    return inside[static_cast<std::size_t>(cell(y, rows) * columns + cell(x, columns))] != 0;
+  }
+};
+
 /// One answer of a detector.
 struct Detection {
   Box box;
@@ -56,10 +71,13 @@ struct Detection {
   float confidence = 1.0f;  ///< 0 to 1
   double nearest_m = 0.0;   ///< depth of the thing itself: what is nearer or farther in its box is something else …
   double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres
+  std::shared_ptr<const BoxMask> mask =
+      nullptr;  ///< none: all of the box; shared, so that a detection can be copied freely
 
   /// Features without a depth (0) are taken to be of the thing.
   bool holds(const Vector2f& pixel, double depth_m) const noexcept {
-    return box.contains(pixel) && (!(depth_m > 0.0) || (depth_m >= nearest_m && depth_m <= farthest_m));
+    return box.contains(pixel) && (!(depth_m > 0.0) || (depth_m >= nearest_m && depth_m <= farthest_m)) &&
+           (!mask || mask->at((pixel.x() - box.x) / box.width, (pixel.y() - box.y) / box.height));
   }
 };
 

@@ -5,6 +5,7 @@
 // The semantic prior: boxes of a detector, sorted into the paper's three groups.   detections → regions
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
@@ -22,11 +23,11 @@ class BoxPrior {
 
   std::vector<Detection> detections;  ///< of the coming frame; the host's to write, kept until it writes again
 
-  /// Detections that are not finite or have no area are left out.
+  /// Detections that are not finite, have no area or a mask of the wrong size are left out.
   void regions(const FrameView&, Regions& regions) const {
     regions.detections.clear();
     for (const Detection& detection : detections)
-      if (valid(detection.box) && detection.confidence >= options.lowest_confidence)
+      if (valid(detection.box) && valid(detection.mask.get()) && detection.confidence >= options.lowest_confidence)
         regions.detections.push_back(detection);
   }
 
@@ -34,6 +35,11 @@ class BoxPrior {
   static bool valid(const Box& box) noexcept {
     return std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(box.width) && std::isfinite(box.height) &&
            box.width > 0 && box.height > 0;
+  }
+  static bool valid(const BoxMask* mask) noexcept {
+    return mask == nullptr ||
+           (mask->columns > 0 && mask->rows > 0 &&
+            mask->inside.size() == static_cast<std::size_t>(mask->columns) * static_cast<std::size_t>(mask->rows));
   }
 };
 

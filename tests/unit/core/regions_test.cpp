@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <vector>
 
 namespace stillpoint {
@@ -39,6 +40,22 @@ TEST(Box, EdgeDistanceInsideAndOutside) {
   EXPECT_FLOAT_EQ(kBox.edge_distance_px({3, 40}), 7.0f);    // to the left
   EXPECT_FLOAT_EQ(kBox.edge_distance_px({25, 65}), 5.0f);   // below
   EXPECT_FLOAT_EQ(kBox.edge_distance_px({43, 64}), 5.0f);   // beyond the corner: 3 and 4
+}
+
+TEST(Detection, HoldsWhatItsMaskCovers) {
+  Detection detection{kBox, Mobility::dynamic};
+  // Two columns of 15 px, four rows of 10 px; the thing is the right column of the second row: x 25 to 40, y 30 to 40.
+  detection.mask = std::make_shared<const BoxMask>(BoxMask{2, 4, {0, 0, 0, 1, 0, 0, 0, 0}});
+  EXPECT_TRUE(detection.holds({25, 30}, 0));
+  EXPECT_TRUE(detection.holds({40, 39.9f}, 0));
+  EXPECT_FALSE(detection.holds({24.9f, 35}, 0));
+  EXPECT_FALSE(detection.holds({30, 29.9f}, 0));
+  EXPECT_FALSE(detection.holds({30, 40}, 0));
+  EXPECT_FALSE(detection.holds({41, 35}, 0));
+  // The mask goes with its box, and grows with it.
+  detection.box = {110, 20, 60, 80};
+  EXPECT_TRUE(detection.holds({140, 40}, 0));
+  EXPECT_FALSE(detection.holds({30, 35}, 0));
 }
 
 TEST(Regions, OverlappingStaticAndDynamicBoxesBothHold) {

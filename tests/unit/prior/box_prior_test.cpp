@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "stillpoint/core/policy_traits.hpp"
 
@@ -48,6 +51,22 @@ TEST(BoxPrior, LeavesOutBoxesThatAreNone) {
   prior.regions(FrameView(), regions);
   ASSERT_EQ(regions.detections.size(), 1u);
   EXPECT_EQ(regions.detections[0].box.width, 30);
+}
+
+TEST(BoxPrior, LeavesOutMasksOfTheWrongSize) {
+  BoxPrior prior;
+  const auto with_mask = [&](BoxMask mask) {
+    prior.detections.push_back({{1, 2, 3, 4}, Mobility::dynamic, 1});
+    prior.detections.back().mask = std::make_shared<const BoxMask>(std::move(mask));
+  };
+  with_mask({2, 3, std::vector<std::uint8_t>(5)});
+  with_mask({0, 0, {}});
+  with_mask({-1, -1, {1}});
+  with_mask({2, 3, std::vector<std::uint8_t>(6, 1)});
+  Regions regions;
+  prior.regions(FrameView(), regions);
+  ASSERT_EQ(regions.detections.size(), 1u);
+  EXPECT_EQ(regions.detections[0].mask->inside.size(), 6u);
 }
 
 TEST(BoxPrior, LeavesOutWhatTheDetectorDoubts) {
