@@ -20,8 +20,10 @@ struct Motion {
   /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v.
   Matrix6d covariance = Matrix6d::Zero();
   double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
-  int candidates = 0;  ///< matches that took part
-  int inliers = 0;     ///< of them, those that the motion explains
+  bool standing = false;  ///< the camera did not move at all: the pose is the identity, not an estimate
+  double pixel_sigma = 0;  ///< of the matches that support it, measured; pixels, 0 where nobody says
+  int candidates = 0;     ///< matches that took part
+  int inliers = 0;        ///< of them, those that the motion explains
 
   bool usable() const noexcept { return judged(status); }
 };
@@ -29,6 +31,7 @@ struct Motion {
 /// What the host, an IMU or the last frame expects of the motion.
 struct MotionPrior {
   std::optional<Pose> current_from_reference;
+  bool standing = true;  ///< the camera stood when it was seen last; robots are switched on standing
 };
 
 }  // namespace stillpoint

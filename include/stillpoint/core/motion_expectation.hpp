@@ -28,9 +28,9 @@ class MotionExpectation {
 
   /// @param timestamp_s  of the coming frame: the velocity is scaled to the time that has passed
   MotionPrior at(double timestamp_s) const {
-    if (said_) return {said_};
-    if (!last_motion_ || !last_timestamp_s_) return {};
-    return {scaled(*last_motion_, (timestamp_s - *last_timestamp_s_) / last_interval_s_)};
+    if (said_) return {said_, standing_};
+    if (!last_motion_ || !last_timestamp_s_) return {std::nullopt, standing_};
+    return {scaled(*last_motion_, (timestamp_s - *last_timestamp_s_) / last_interval_s_), standing_};
   }
 
   /// A frame has come, and the camera moved so.
@@ -41,7 +41,9 @@ class MotionExpectation {
     world_from_last_.reset();
     said_.reset();
     last_motion_.reset();
-    if (motion.usable()) last_motion_ = motion.current_from_reference;
+    if (!motion.usable()) return;
+    last_motion_ = motion.current_from_reference;
+    standing_ = motion.standing;
   }
 
   const std::optional<double>& last_timestamp_s() const noexcept { return last_timestamp_s_; }
@@ -50,6 +52,7 @@ class MotionExpectation {
   std::optional<Pose> said_;
   std::optional<Pose> last_motion_;  // what was done within last_interval_s_
   double last_interval_s_ = 0.0;
+  bool standing_ = true;
   std::optional<double> last_timestamp_s_;
   std::optional<Pose> world_from_last_, world_from_second_last_;  // the host's poses of the last two frames
 };

@@ -21,6 +21,7 @@
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
 #include "stillpoint/motion/small_linear_algebra.hpp"
+#include "stillpoint/motion/standing_camera.hpp"
 #include "stillpoint/motion/support_constraints.hpp"
 #include "stillpoint/motion/support_problem.hpp"
 
@@ -28,7 +29,8 @@ namespace stillpoint {
 
 /// The ego-motion of `DefaultPolicies`. Two hypotheses compete: the motion expected from the past, pulled to the
 /// nearest consensus, and the best of many minimal samples, drawn by trust. Where they differ, the past wins as long as
-/// it explains enough (`consensus_inverted`): what moves with the majority may be a person before the camera.
+/// it explains enough (`consensus_inverted`): what moves with the majority may be a person before the camera. A camera
+/// that stands has no motion at all.
 class SupportMotion {
  public:
   struct Options {
@@ -37,12 +39,15 @@ class SupportMotion {
     double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
     double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
     double least_support = 0.08;    ///< share of all weight that the motion must explain
-    double undisputed_loss = 20.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
+    double undisputed_loss = 60.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
+    double creep_gain = 60.0;       ///< squared sigmas by which a motion must beat standing still
+    double least_pixel_sigma = 0.1;  ///< of what is measured; the most is `constraints.pixel_sigma`
     std::size_t fewest_matches = 6;
     std::uint64_t seed = Random::kDefaultSeed;
   };
   Options options;
   SupportConstraints constraints;  ///< noise and weights of what supports a motion
+  StandingCamera standing;         ///< when has the camera no motion at all?
 
   /// @return status ok, consensus_inverted, no_depth, too_few_matches or no_consensus.
   template <class Camera>
@@ -58,14 +63,18 @@ class SupportMotion {
 
     auto problem = problem_of(points, matches, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
-    const Hypothesis past = polish(expected, problem);
+    Hypothesis past = polish(expected, problem, kFarCutoffs);
+    motion.pixel_sigma = calibrate(past.reference_from_current, problem, workspace);
+    past = polish(past.reference_from_current, problem, kFarCutoffs);
     const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
     const bool differ =
         sampled.support > past.support &&
         problem.distance_px(sampled.reference_from_current, past.reference_from_current) > options.same_motion_px;
     const bool inverted = differ && past.support > options.past_preference * sampled.support;
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
-    const Hypothesis chosen = with_suspects(trusted, kFarCutoffs, problem);
+    motion.standing = standing.since_last_frame(matches, prior.standing) &&
+                      nothing_creeps(points, features, matches, camera, workspace);
+    const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kFarCutoffs, problem);
 
     double weight = 0;
     for (const PointConstraint& point : points) weight += point.weight;
@@ -85,10 +94,13 @@ class SupportMotion {
   void refine(Matches& matches, const Regions& regions, const Camera& camera, Motion& motion,
               Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
+    if (motion.standing && standing.since_older_frames(matches)) return;
+    motion.standing = false;
     const span<OlderFrame> frames = matches.sightings.frames();
     const span<PointConstraint> points = constraints.from_sightings(matches, regions, camera, workspace);
     if (frames.empty() || points.size() < options.fewest_matches * frames.size()) return;
     auto problem = problem_of(points, matches, camera, workspace);
+    calibrate(frames[0].reference_from_current, problem, workspace);
     Hypothesis trusted;
     trusted.reference_from_current = frames[0].reference_from_current;
     trusted.information = problem.refine(trusted.reference_from_current, kNearCutoffs);
@@ -126,6 +138,30 @@ class SupportMotion {
     return {points, constraints.from_surfaces(matches, workspace), poses, links, camera, options.inlier_sigmas};
   }
 
+  /// Is what is at rest better explained by a motion too small to see in any corner by itself?
+  template <class Camera>
+  bool nothing_creeps(span<const PointConstraint> points, span<const std::uint32_t> features, const Matches& matches,
+                      const Camera& camera, Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (standing.at_rest(matches, features[k])) resting[count++] = points[k];
+    Pose poses[2] = {Pose::Identity(), Pose::Identity()};
+    SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
+    calibrate(Pose::Identity(), problem, workspace);
+    const Hypothesis crept = polish(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    return problem.squared_residuals_of(crept.support - problem.support(Pose::Identity())) < options.creep_gain;
+  }
+
+  /// No motion, as well known as the support allows.
+  template <class Camera>
+  Hypothesis at_rest(const SupportProblem<Camera>& problem) const {
+    Hypothesis hypothesis = polish(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    hypothesis.reference_from_current = Pose::Identity();
+    return hypothesis;
+  }
+
   /// The motion with suspects in full, where the trusted do not object: what was seen moving is parked, and its points
   /// are as good as any. Where they object, the trusted hypothesis as it is. The loss of the trusted has a χ²
   /// distribution of six degrees of freedom if all stand still.
@@ -146,12 +182,19 @@ class SupportMotion {
   }
 
   template <class Camera>
-  Hypothesis polish(const Pose& reference_from_current, const SupportProblem<Camera>& problem) const {
+  static Hypothesis polish(const Pose& reference_from_current, const SupportProblem<Camera>& problem,
+                           span<const double> cutoffs) {
     Hypothesis hypothesis;
     hypothesis.reference_from_current = reference_from_current;
-    hypothesis.information = problem.refine(hypothesis.reference_from_current, kFarCutoffs);
+    hypothesis.information = problem.refine(hypothesis.reference_from_current, cutoffs);
     hypothesis.support = problem.support(hypothesis.reference_from_current);
     return hypothesis;
+  }
+
+  /// @return pixels
+  template <class Camera>
+  double calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem, Workspace& workspace) const {
+    return problem.calibrate(reference_from_current, options.least_pixel_sigma, constraints.pixel_sigma, workspace);
   }
 
   /// The best motion of three points, polished; no support where none explains more points than `past`.
@@ -176,7 +219,7 @@ class SupportMotion {
       to_beat = found;
       best = pose;
     }
-    return best ? polish(*best, problem) : Hypothesis{};
+    return best ? polish(*best, problem, kFarCutoffs) : Hypothesis{};
   }
 
   /// Three metric matches, each accepted with the probability of its weight.

@@ -5,11 +5,14 @@
 // How well does a motion explain the support corners and surfaces, and which motion near by explains them best?
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/reprojection_refinement.hpp"
 
 namespace stillpoint {
@@ -40,6 +43,28 @@ class SupportProblem {
   void swap_trust() noexcept {
     for (PointConstraint& point : points_) std::swap(point.weight, point.trusted_weight);
     for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.trusted_weight);
+  }
+
+  /// Measures the pixel noise of the trusted points, from the median of their residuals, and sets it for all.
+  /// @return it, pixels, held within both limits; the upper one where nothing is trusted
+  double calibrate(const Pose& pose, double least_px, double most_px, Workspace& workspace) {
+    constexpr double kMedian = 1.386;  // of χ² with two degrees of freedom: 2 ln 2
+    constexpr double kTrusted = 0.5;   // weight
+    const Workspace::Scope scope(workspace);
+    const span<double> squared_px = workspace.take<double>(points_.size());
+    std::size_t count = 0;
+    spread(pose);
+    for (const PointConstraint& point : points_) {
+      if (!(point.weight > kTrusted)) continue;
+      const detail::WhitenedPoint whitened(point, poses_[point.frame], camera_);
+      if (std::isfinite(whitened.squared))
+        squared_px[count++] = whitened.error.squaredNorm() * point.pixel_sigma * point.pixel_sigma;
+    }
+    double sigma_px = most_px;
+    if (count > 0)
+      sigma_px = std::min(most_px, std::max(least_px, std::sqrt(median_in_place(squared_px.first(count)) / kMedian)));
+    for (PointConstraint& point : points_) point.pixel_sigma = sigma_px;
+    return sigma_px;
   }
 
   double squared(const PointConstraint& point, const Pose& pose) const {

@@ -20,7 +20,7 @@ namespace stillpoint {
 /// there is the thing's, and what is much nearer or farther is something else seen past it.
 class ForegroundPrior : public BoxPrior {
  public:
-  double reach_m = 0.3;        ///< a person reaches this far from the middle's depth, either way
+  double reach_m = 0.2;        ///< the thing reaches this far from the middle's depth, either way
   double fewest_depths = 0.1;  ///< share of the samples that must have a depth; fewer say nothing
 
   void regions(const FrameView& frame, Regions& regions) const {

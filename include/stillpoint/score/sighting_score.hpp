@@ -27,6 +27,8 @@ class SightingScore {
   struct Options {
     double pixel_sigma = 1.0;           ///< of a found patch that looks unlike, pixels
     double alike_share = 0.5;           ///< and of one that looks just alike, of that
+    double motion_sigmas = 2.5;         ///< where the motion says how exact its own matches are: so many of theirs …
+    double least_noise = 0.3;           ///< … but no less than this of all that is said here of places, and no more
     double drift_px_per_s = 1.0;        ///< what chained poses and rolling shutter add with time
     double depth_sigmas = 1.5;          ///< measured depth noise over the model's
     double depth_floor_m = 0.004;       ///< and what is left when the model's is nothing
@@ -67,10 +69,13 @@ class SightingScore {
   }
 
   /// A patch that looks just alike is located better than one that does not.
-  double place_sigma_px(float dissimilarity, double elapsed_s) const noexcept {
+  double place_sigma_px(float dissimilarity, double elapsed_s, const Motion& motion) const noexcept {
     const double unlike = std::min(1.0, static_cast<double>(dissimilarity) / options.dissimilarity_scale);
-    return options.pixel_sigma * (options.alike_share + (1.0 - options.alike_share) * unlike) +
-           options.drift_px_per_s * elapsed_s;
+    const double sigma_px = options.pixel_sigma * (options.alike_share + (1.0 - options.alike_share) * unlike) +
+                            options.drift_px_per_s * elapsed_s;
+    if (!(motion.pixel_sigma > 0)) return sigma_px;
+    return sigma_px *
+           std::clamp(options.motion_sigmas * motion.pixel_sigma / options.pixel_sigma, options.least_noise, 1.0);
   }
 
   /// The squared whitened distance from where a standing point would be to where its patch was found.
@@ -95,7 +100,7 @@ class SightingScore {
     const Vector3d there = frame.reference_from_current * point;
     double evidence = 0;
     if (std::isfinite(sighting.dissimilarity)) {
-      const double sigma = place_sigma_px(sighting.dissimilarity, frame.elapsed_s);
+      const double sigma = place_sigma_px(sighting.dissimilarity, frame.elapsed_s, motion);
       const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
       // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = (t − there) z.
       const Vector3d spread =

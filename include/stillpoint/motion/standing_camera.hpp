@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does the camera stand?   Corners at rest are no coincidence: a mover hides no wall, however much of the view it
+// fills.
+
+#include <cstddef>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/matches.hpp"
+
+namespace stillpoint {
+
+/// A camera that stands has exactly no motion, which needs far less support than one that was estimated: a moving
+/// camera leaves nothing at rest but what is fixed to it, and that lies before the world, not behind. Without this, who
+/// stands close before the lens and sways takes the pose along.
+struct StandingCamera {
+  double rest_px = 0.3;          ///< a corner that moved less is at rest
+  double begins_share = 0.9;     ///< of the weight of all corners that is at rest when a camera comes to stand
+  double continues_share = 0.1;  ///< while it stands, so much is enough, if it lies behind the rest
+
+  /// Between the last frame and this one.
+  bool since_last_frame(const Matches& matches, bool stood) const {
+    Census census;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (!matches.matched(i)) continue;
+      census.count(at_rest(matches, i), matches, i);
+    }
+    return stands(census, stood);
+  }
+
+  /// @param i  a match
+  bool at_rest(const Matches& matches, std::size_t i) const {
+    return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm() < rest_px;
+  }
+
+  /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: what creeps
+  /// is at rest from frame to frame.
+  bool since_older_frames(const Matches& matches) const {
+    const OlderFrame* oldest = nullptr;
+    for (const OlderFrame& frame : matches.sightings.frames())
+      if (frame.reference_from_current.matrix() == Pose::Identity().matrix()) oldest = &frame;
+    if (oldest == nullptr) return true;
+    Census census;
+    for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
+      const Sighting& sighting = oldest->of_feature[i];
+      if (sighting.state != SightingState::seen || !(sighting.dissimilarity < 2.0f)) continue;
+      const double moved_px = (matches.current.undistorted[i] - sighting.found.cast<double>()).norm();
+      census.count(moved_px < rest_px, matches, i);
+    }
+    return stands(census, true);
+  }
+
+ private:
+  struct Group {
+    double weight = 0;
+    double with_depth = 0, inverse_depth = 0;  ///< weight of those with a depth; Σ weight / depth
+  };
+  struct Census {
+    Group resting, moving;
+
+    void count(bool at_rest, const Matches& matches, std::size_t i) {
+      Group& group = at_rest ? resting : moving;
+      const auto weight = static_cast<double>(matches.trust[i]);
+      group.weight += weight;
+      if (!matches.current.has_depth(i)) return;
+      group.with_depth += weight;
+      group.inverse_depth += weight / matches.current.depth_m[i];
+    }
+  };
+
+  bool stands(const Census& census, bool stood) const {
+    const double all = census.resting.weight + census.moving.weight;
+    if (!(all > 0)) return false;
+    const double share = census.resting.weight / all;
+    if (share > begins_share) return true;
+    const bool behind = census.resting.inverse_depth * census.moving.with_depth <
+                        census.moving.inverse_depth * census.resting.with_depth;
+    return stood && share > continues_share && behind;
+  }
+};
+
+}  // namespace stillpoint
