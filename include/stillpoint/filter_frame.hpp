@@ -81,6 +81,7 @@ class FrameFilter : private PolicyContract<Policies> {
     history_.clear();
     matcher.reset();
     memory.reset();
+    forget(gate);
     expectation_ = MotionExpectation();
   }
 
@@ -115,6 +116,7 @@ class FrameFilter : private PolicyContract<Policies> {
     timings.run(Stage::gate, [&] { threshold = gate.threshold(scores, regions_, workspace_); });
     timings.run(Stage::classify,
                 [&] { classifier.classify(matches_, scores, threshold, regions_, labels, workspace_); });
+    timings.run(Stage::gate, [&] { learn(gate, matches_, labels); });
     timings.run(Stage::memory, [&] { memory.update(matches_, motion, scores, labels, workspace_); });
     timings.run(Stage::verdict, [&] {
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);

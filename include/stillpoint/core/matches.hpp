@@ -65,8 +65,9 @@ struct Matches {
   Observations current;
   Observations reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;
-  std::vector<float> trust;  ///< 0 to 1: how much a feature may say of the camera's motion, from memory
-  Sightings sightings;       ///< in older frames, for a matcher that looks back
+  std::vector<float> trust;              ///< 0 to 1: how much a feature may say of the camera's motion, from memory
+  std::vector<float> recalled_log_odds;  ///< that it moves, from earlier frames; 0 where nothing is remembered
+  Sightings sightings;                   ///< in older frames, for a matcher that looks back
 
   std::size_t size() const noexcept { return state.size(); }
 
@@ -83,6 +84,7 @@ struct Matches {
     reference.resize(0);
     state.clear();
     trust.clear();
+    recalled_log_odds.clear();
     sightings.clear();
     resize(host_count);
     for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = pixels[i];
@@ -93,6 +95,7 @@ struct Matches {
     reference.resize(count);
     state.resize(count, MatchState::lost);
     trust.resize(count, 1.0f);
+    recalled_log_odds.resize(count, 0.0f);
   }
 };
 

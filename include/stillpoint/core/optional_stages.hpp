@@ -12,6 +12,8 @@
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
 #include "stillpoint/core/timings.hpp"
 #include "stillpoint/core/workspace.hpp"
 
@@ -36,6 +38,11 @@ template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(
 template <class P, class = void> struct recalls : std::false_type {};
 template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
     std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class P, class = void> struct learns : std::false_type {};
+template <class P> struct learns<P, std::void_t<decltype(std::declval<P&>().learn(
+    std::declval<const Matches&>(), std::declval<span<const Label>>())), decltype(std::declval<P&>().reset())>>
+    : std::true_type {};
 
 // clang-format on
 
@@ -71,6 +78,18 @@ void look_back(Stages& stages, const FrameHistory& history, const FrameView& fra
     if constexpr (refines<typename Stages::EgoMotion, StageCamera>::value)
       timings.run(Stage::motion, [&] { stages.ego_motion.refine(matches, regions, stages.camera, motion, workspace); });
   }
+}
+
+/// Between classifier and memory: a gate may learn from what is known to stand.
+template <class Gate>
+void learn(Gate& gate, const Matches& matches, span<const Label> labels) {
+  if constexpr (learns<Gate>::value) gate.learn(matches, labels);
+}
+
+/// And forgets it where the filter does.
+template <class Gate>
+void forget(Gate& gate) {
+  if constexpr (learns<Gate>::value) gate.reset();
 }
 
 }  // namespace stillpoint

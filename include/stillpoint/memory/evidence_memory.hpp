@@ -41,7 +41,7 @@ class EvidenceMemory {
   };
   Options options;
 
-  /// Looks every feature and surface cell up in what is remembered, and fills their trust.
+  /// Looks every feature and surface cell up in what is remembered, and fills their trust and log-odds.
   void recall(Matches& matches, Workspace& workspace) {
     recalled_.assign(matches.size(), Memory{});
     if (pixel_.empty()) return;
@@ -51,6 +51,7 @@ class EvidenceMemory {
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : matches.current.pixel[i];
       recalled_[i] = look_up(grid, pixel, matches.current.depth_m[i]);
       matches.trust[i] = trust(recalled_[i].suspicion);
+      matches.recalled_log_odds[i] = recalled_[i].log_odds;
     }
     for (SurfaceCell& cell : matches.sightings.surfaces)
       cell.trust = trust(look_up(grid, cell.pixel, cell.point.z()).suspicion);

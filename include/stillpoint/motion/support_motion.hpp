@@ -42,6 +42,7 @@ class SupportMotion {
     double undisputed_loss = 60.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
     double creep_gain = 60.0;       ///< squared sigmas by which a motion must beat standing still
     double least_pixel_sigma = 0.1;  ///< of what is measured; the most is `constraints.pixel_sigma`
+    double most_depth_noise = 4.0;   ///< of what is measured, over what is assumed; the least is 1
     std::size_t fewest_matches = 6;
     std::uint64_t seed = Random::kDefaultSeed;
   };
@@ -64,7 +65,9 @@ class SupportMotion {
     auto problem = problem_of(points, matches, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
     Hypothesis past = polish(expected, problem, kFarCutoffs);
-    motion.pixel_sigma = calibrate(past.reference_from_current, problem, workspace);
+    const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
+    motion.pixel_sigma = noise.pixel_sigma;
+    motion.depth_noise = noise.depth_scale;
     past = polish(past.reference_from_current, problem, kFarCutoffs);
     const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
     const bool differ =
@@ -191,10 +194,11 @@ class SupportMotion {
     return hypothesis;
   }
 
-  /// @return pixels
   template <class Camera>
-  double calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem, Workspace& workspace) const {
-    return problem.calibrate(reference_from_current, options.least_pixel_sigma, constraints.pixel_sigma, workspace);
+  SupportNoise calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem,
+                         Workspace& workspace) const {
+    return problem.calibrate(reference_from_current, {options.least_pixel_sigma, 1.0},
+                             {constraints.pixel_sigma, options.most_depth_noise}, workspace);
   }
 
   /// The best motion of three points, polished; no support where none explains more points than `past`.

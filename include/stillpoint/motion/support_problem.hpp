@@ -17,6 +17,12 @@
 
 namespace stillpoint {
 
+/// How exact the points and planes are.
+struct SupportNoise {
+  double pixel_sigma = 1;  ///< pixels
+  double depth_scale = 1;  ///< times what was assumed
+};
+
 /// Everything that is known of one motion: points and planes in one or more older frames, whose poses to each other
 /// are known, so that the pose to the first of them gives all. Views of a workspace.
 template <class Camera>
@@ -45,26 +51,36 @@ class SupportProblem {
     for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.trusted_weight);
   }
 
-  /// Measures the pixel noise of the trusted points, from the median of their residuals, and sets it for all.
-  /// @return it, pixels, held within both limits; the upper one where nothing is trusted
-  double calibrate(const Pose& pose, double least_px, double most_px, Workspace& workspace) {
-    constexpr double kMedian = 1.386;  // of χ² with two degrees of freedom: 2 ln 2
-    constexpr double kTrusted = 0.5;   // weight
+  /// Measures the noise of the trusted points, from the medians of their residuals, and sets it for all.
+  /// @param least, most  what is measured is held within these
+  /// @return             most pixel noise and least depth noise where nothing is trusted
+  SupportNoise calibrate(const Pose& pose, const SupportNoise& least, const SupportNoise& most, Workspace& workspace) {
+    constexpr double kTrusted = 0.5;  // weight
     const Workspace::Scope scope(workspace);
     const span<double> squared_px = workspace.take<double>(points_.size());
-    std::size_t count = 0;
+    const span<double> squared_depth = workspace.take<double>(points_.size());
+    std::size_t pixels = 0, depths = 0;
     spread(pose);
     for (const PointConstraint& point : points_) {
       if (!(point.weight > kTrusted)) continue;
       const detail::WhitenedPoint whitened(point, poses_[point.frame], camera_);
-      if (std::isfinite(whitened.squared))
-        squared_px[count++] = whitened.error.squaredNorm() * point.pixel_sigma * point.pixel_sigma;
+      if (!std::isfinite(whitened.squared)) continue;
+      squared_px[pixels++] = whitened.error.squaredNorm() * point.pixel_sigma * point.pixel_sigma;
+      if (point.depth_m > 0) squared_depth[depths++] = whitened.depth_error * whitened.depth_error;
     }
-    double sigma_px = most_px;
-    if (count > 0)
-      sigma_px = std::min(most_px, std::max(least_px, std::sqrt(median_in_place(squared_px.first(count)) / kMedian)));
-    for (PointConstraint& point : points_) point.pixel_sigma = sigma_px;
-    return sigma_px;
+    constexpr double kMedianOfTwo = 1.386, kMedianOfOne = 0.455;  // of χ² with so many degrees of freedom
+    SupportNoise noise = {most.pixel_sigma, least.depth_scale};
+    if (pixels > 0) noise.pixel_sigma = std::sqrt(median_in_place(squared_px.first(pixels)) / kMedianOfTwo);
+    if (depths > 0) noise.depth_scale = std::sqrt(median_in_place(squared_depth.first(depths)) / kMedianOfOne);
+    noise.pixel_sigma = std::min(most.pixel_sigma, std::max(least.pixel_sigma, noise.pixel_sigma));
+    noise.depth_scale = std::min(most.depth_scale, std::max(least.depth_scale, noise.depth_scale));
+    for (PointConstraint& point : points_) {
+      point.pixel_sigma = noise.pixel_sigma;
+      point.inverse_depth_sigma *= noise.depth_scale;
+      point.depth_sigma_m *= noise.depth_scale;
+    }
+    for (PlaneConstraint& plane : planes_) plane.sigma_m *= noise.depth_scale;
+    return noise;
   }
 
   double squared(const PointConstraint& point, const Pose& pose) const {

@@ -112,8 +112,8 @@ class SightingScore {
     }
     if (sighting.depth_m > 0) {
       const double here_m = matches.current.depth_sigma_m[i], there_m = static_cast<double>(sighting.depth_sigma_m);
-      const double sigma =
-          options.depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m) + options.depth_floor_m;
+      const double sigma = motion.depth_noise * (options.depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m) +
+                                                 options.depth_floor_m);
       const double error = (static_cast<double>(sighting.depth_m) - there.z()) / sigma;
       evidence += std::min(0.5 * error * error, options.most_from_depth) - options.expected_depth;
     }

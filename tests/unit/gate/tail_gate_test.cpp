@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
@@ -65,6 +67,78 @@ TEST(TailGate, DoesNotLookAtTheScores) {
   Workspace workspace;
   EXPECT_EQ(gate(0.01).threshold(scores, Regions{}, workspace).level, level(0.01))
       << "a view full of movers must not raise its own threshold";
+}
+
+// What a frame of features looks like to a gate that learns.
+struct Frame {
+  Matches matches;
+  std::vector<Label> labels;
+
+  /// @param exceeding  of the features that stood until now
+  Frame(std::size_t known, std::size_t exceeding) : labels(known) {
+    matches.begin(std::vector<Vector2f>(known, Vector2f(1, 1)));
+    for (std::size_t i = 0; i < known; ++i) {
+      matches.recalled_log_odds[i] = -3.0f;
+      labels[i].log_odds = i < exceeding ? 0.5f : -1.0f;
+    }
+  }
+};
+
+// One step is gain × (min(share / rate, most) − 1): 2 of 100 at a rate of 1 % are twice the rate, 0.01 × 1; ten are as
+// many as the bound of two allows.
+TEST(TailGate, RisesWhereMoreThanTheRateOfWhatStandsExceeds) {
+  TailGate learner = gate(0.01);
+  learner.options.gain = 0.01;
+  learner.options.most_excess = 2.0;
+  const Frame twice(100, 2), often(100, 10);
+  learner.learn(twice.matches, twice.labels);
+  EXPECT_NEAR(learner.raised(), 0.01, 1e-12);
+  learner.learn(often.matches, often.labels);
+  EXPECT_NEAR(learner.raised(), 0.02, 1e-12);
+  Workspace workspace;
+  EXPECT_NEAR(learner.threshold({}, Regions{}, workspace).level, 4.02, 1e-12);
+  learner.reset();
+  EXPECT_EQ(learner.threshold({}, Regions{}, workspace).level, 4.0);
+}
+
+TEST(TailGate, SinksBackToThePriorAndNoLower) {
+  TailGate learner = gate(0.01);
+  const Frame loud(100, 50), quiet(100, 0);
+  for (int i = 0; i < 1000; ++i) learner.learn(loud.matches, loud.labels);
+  EXPECT_EQ(learner.raised(), learner.options.most_raised);
+  learner.learn(quiet.matches, quiet.labels);
+  EXPECT_NEAR(learner.raised(), learner.options.most_raised - learner.options.gain, 1e-12);
+  for (int i = 0; i < 1000; ++i) learner.learn(quiet.matches, quiet.labels);
+  EXPECT_EQ(learner.raised(), 0.0);
+}
+
+TEST(TailGate, LearnsOnlyFromWhatIsKnownToStand) {
+  TailGate learner = gate(0.01);
+  Frame moving(100, 100), suspect(100, 100), corners(100, 100);
+  Frame few(learner.options.fewest_known - 1, 40);
+  for (float& log_odds : moving.matches.recalled_log_odds) log_odds = -1.0f;
+  for (float& trust : suspect.matches.trust) trust = 0.9f;
+  corners.matches.host_count = 0;  // the matcher's own
+  for (Frame* frame : {&moving, &suspect, &corners, &few}) learner.learn(frame->matches, frame->labels);
+  EXPECT_EQ(learner.raised(), 0.0);
+}
+
+// A world whose tail is longer than the prior's: evidence of a standing feature exceeds the level with the probability
+// P(level) = exp(−(level − 4) / 1.3) × 5 %. It is the rate of 1 % where the level is 4 + 1.3 ln 5 = 6.09. The tolerance
+// is four standard deviations of what is measured at the end, 100 frames of 300 features, in nats: 1.3 / √300.
+TEST(TailGate, FindsTheLevelOfALongerTail) {
+  TailGate learner = gate(0.01);
+  Random random(3);
+  double sum = 0;
+  for (int f = 0; f < 1500; ++f) {
+    std::size_t exceeding = 0;
+    const double probability = 0.05 * std::exp(-learner.raised() / 1.3);
+    for (int i = 0; i < 300; ++i) exceeding += random.uniform() < probability;
+    const Frame frame(300, exceeding);
+    learner.learn(frame.matches, frame.labels);
+    if (f >= 1400) sum += learner.raised() / 100;
+  }
+  EXPECT_NEAR(sum, 1.3 * std::log(5.0), 4 * 1.3 / std::sqrt(300.0));
 }
 
 }  // namespace
