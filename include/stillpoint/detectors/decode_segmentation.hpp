@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Segmentation: a class for each pixel. Each connected part of a class becomes a box with a mask.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/detectors/raw_detection.hpp"
+
+namespace stillpoint {
+
+/// A class and how sure of it the network is, for each cell; row by row.
+struct LabelMap {
+  static constexpr std::int16_t kNothing = -1;
+  int columns = 0, rows = 0;
+  std::vector<std::int16_t> label;
+  std::vector<float> score;
+};
+
+/// The classes of scores 1xCxhxw. C == 1 or 2: one class, 0, where it passes one half (C == 2: against the background
+/// in channel 0). C == nc: the best channel; C == nc + 1: the same, with the background in channel 0, which the class
+/// list does not have. Values outside 0 to 1 are logarithms: sigmoid or softmax first.
+inline LabelMap label_map_from_scores(const Tensor& output, const DecodeSettings& settings) {
+  const TensorShape& shape = output.shape;
+  require_shape(
+      shape.rank() == 4 && shape[0] == 1 &&
+          (shape[1] == 1 || shape[1] == 2 || shape[1] == settings.class_count || shape[1] == settings.class_count + 1),
+      "segmentation", "1xCxhxw with C of 1, 2, classes or classes+1", {&output, 1});
+  const int channels = shape[1];
+  LabelMap map{shape[3], shape[2], {}, {}};
+  const std::size_t cells = static_cast<std::size_t>(shape[2]) * static_cast<std::size_t>(shape[3]);
+  const bool probabilities =
+      std::all_of(output.data, output.data + shape.count(), [](float value) { return value >= 0.0f && value <= 1.0f; });
+  map.label.assign(cells, LabelMap::kNothing);
+  map.score.assign(cells, 0.0f);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const float* const scores = output.data + i;
+    const auto channel = [&](int c) { return scores[static_cast<std::size_t>(c) * cells]; };
+    if (channels <= 2) {
+      const float value = channels == 1 ? channel(0) : probabilities ? channel(1) : channel(1) - channel(0);
+      map.score[i] = probabilities ? value : sigmoid(value);
+      if (map.score[i] > 0.5f) map.label[i] = 0;
+      continue;
+    }
+    const BestClass best = best_class(scores, channels, static_cast<std::ptrdiff_t>(cells));
+    map.score[i] = best.score;
+    if (!probabilities) {
+      float sum = 0;
+      for (int c = 0; c < channels; ++c) sum += std::exp(channel(c) - best.score);
+      map.score[i] = 1.0f / sum;
+    }
+    map.label[i] = static_cast<std::int16_t>(channels == settings.class_count ? best.label : best.label - 1);
+  }
+  return map;
+}
+
+/// The classes of 1xhxwx1 or 1xhxw integers, all of them certain.
+inline LabelMap label_map_from_labels(const Tensor& output) {
+  const TensorShape& shape = output.shape;
+  require_shape((shape.rank() == 3 || (shape.rank() == 4 && shape[3] == 1)) && shape[0] == 1, "label-map",
+                "1xhxwx1 or 1xhxw", {&output, 1});
+  LabelMap map{shape[2], shape[1], {}, {}};
+  map.label.reserve(shape.count());
+  for (const float value : span<const float>(output.data, shape.count()))
+    map.label.push_back(static_cast<std::int16_t>(std::min(label_of(value), int{INT16_MAX})));
+  map.score.assign(shape.count(), 1.0f);
+  return map;
+}
+
+/// Appends a box with a mask for each part of a class whose cells touch at an edge.
+/// @param smallest_share  of the picture; what is smaller is left out
+/// The score is the mean over the part's cells. Time linear in the cells.
+inline void append_parts(const LabelMap& map, const DecodeSettings& settings, float smallest_share,
+                         std::vector<RawDetection>& found) {
+  const float px_per_column = static_cast<float>(settings.input.width) / static_cast<float>(map.columns);
+  const float px_per_row = static_cast<float>(settings.input.height) / static_cast<float>(map.rows);
+  const double smallest = static_cast<double>(smallest_share) * map.columns * map.rows;
+  std::vector<std::uint8_t> seen(map.label.size(), 0);
+  std::vector<std::pair<int, int>> part;  // columns and rows; grows while it is walked through
+  const auto index = [&](int u, int v) {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(map.columns) + static_cast<std::size_t>(u);
+  };
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      const std::int16_t label = map.label[index(column, row)];
+      if (label == LabelMap::kNothing || seen[index(column, row)] != 0) continue;
+      part.clear();
+      const auto visit = [&](int u, int v) {
+        if (u < 0 || v < 0 || u >= map.columns || v >= map.rows) return;
+        if (map.label[index(u, v)] != label || seen[index(u, v)] != 0) return;
+        seen[index(u, v)] = 1;
+        part.emplace_back(u, v);
+      };
+      visit(column, row);
+      int left = column, right = column, bottom = row;  // scanned row by row: the top is where it began
+      double score = 0;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const auto [u, v] = part[i];
+        left = std::min(left, u), right = std::max(right, u), bottom = std::max(bottom, v);
+        score += static_cast<double>(map.score[index(u, v)]);
+        visit(u - 1, v), visit(u + 1, v), visit(u, v - 1), visit(u, v + 1);
+      }
+      const auto mean = static_cast<float>(score / static_cast<double>(part.size()));
+      if (static_cast<double>(part.size()) < smallest || !(mean >= settings.lowest_confidence)) continue;
+
+      auto mask = std::make_shared<BoxMask>();
+      mask->columns = right - left + 1;
+      mask->rows = bottom - row + 1;
+      mask->inside.assign(static_cast<std::size_t>(mask->columns) * static_cast<std::size_t>(mask->rows), 0);
+      for (const auto& [u, v] : part)
+        mask->inside[static_cast<std::size_t>((v - row) * mask->columns + (u - left))] = 1;
+      found.push_back({static_cast<float>(left) * px_per_column, static_cast<float>(row) * px_per_row,
+                       static_cast<float>(right + 1) * px_per_column, static_cast<float>(bottom + 1) * px_per_row, mean,
+                       label, -1, std::move(mask)});
+    }
+  }
+}
+
+}  // namespace stillpoint
