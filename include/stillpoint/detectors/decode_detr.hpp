@@ -15,20 +15,29 @@
 
 namespace stillpoint {
 
-/// Decodes logits 1xQxC and boxes 1xQx4 (middles and sizes as shares of the input), in either order. C == nc: sigmoids
-/// (RT-DETR, D-FINE); C == nc + 1: softmax with "nothing" as the last column (Carion et al., "DETR", 2020).
-inline void decode_detr(span<const Tensor> outputs, const DecodeSettings& settings, std::vector<RawDetection>& found) {
+/// Logits 1xQxC and boxes 1xQx4, in either order.
+struct LogitsAndBoxes {
   const Tensor *logits = nullptr, *boxes = nullptr;
-  for (const Tensor& output : outputs) {
-    const TensorShape& shape = output.shape;
-    if (shape.rank() != 3 || shape[0] != 1) continue;
-    if (shape[2] == settings.class_count || shape[2] == settings.class_count + 1)
-      logits = &output;
-    else if (shape[2] == 4)
-      boxes = &output;
-  }
-  require_shape(outputs.size() == 2 && logits != nullptr && boxes != nullptr && logits->shape[1] == boxes->shape[1],
-                "detr", "1xQx(classes or classes+1) and 1xQx4", outputs);
+  explicit operator bool() const noexcept { return logits != nullptr && boxes != nullptr; }
+};
+
+/// Told apart by their columns; not there if both have four, or C is neither nc nor nc + 1.
+inline LogitsAndBoxes find_queries(span<const Tensor> outputs, int class_count) noexcept {
+  if (outputs.size() != 2) return {};
+  const TensorShape &a = outputs[0].shape, &b = outputs[1].shape;
+  if (a.rank() != 3 || b.rank() != 3 || a[0] != 1 || b[0] != 1 || a[1] != b[1] || (a[2] == 4) == (b[2] == 4)) return {};
+  const std::size_t boxes = a[2] == 4 ? 0 : 1;
+  const int columns = outputs[1 - boxes].shape[2];
+  if (columns != class_count && columns != class_count + 1) return {};
+  return {&outputs[1 - boxes], &outputs[boxes]};
+}
+
+/// Decodes logits 1xQxC and boxes 1xQx4 (middles and sizes as shares of the input). C == nc: sigmoids (RT-DETR,
+/// D-FINE); C == nc + 1: softmax with "nothing" as the last column (Carion et al., "DETR", 2020).
+inline void decode_detr(span<const Tensor> outputs, const DecodeSettings& settings, std::vector<RawDetection>& found) {
+  const LogitsAndBoxes parts = find_queries(outputs, settings.class_count);
+  require_shape(static_cast<bool>(parts), "detr", "1xQx(classes or classes+1) and 1xQx4, classes not 4", outputs);
+  const Tensor *const logits = parts.logits, *const boxes = parts.boxes;
   const int columns = logits->shape[2];
   const bool softmax = columns == settings.class_count + 1;
   const auto width = static_cast<float>(settings.input.width), height = static_cast<float>(settings.input.height);

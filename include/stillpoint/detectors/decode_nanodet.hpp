@@ -62,10 +62,11 @@ inline constexpr CellMiddle kNanoDetPlusMiddle{0.0f, 0.0f};
 /// outputs and their order say nothing that can be relied on.
 /// @return null if there is none, or two
 inline const Tensor* find_distance_head(span<const Tensor> outputs, int cells, int class_count, bool distances) {
+  constexpr int kMostBins = 17;  // the families have 8; more are rather classes
   const Tensor* found = nullptr;
   for (const Tensor& output : outputs) {
     const auto [rows, columns] = detail::table_size(output.shape);
-    const bool are_distances = columns % 4 == 0 && columns > 4;
+    const bool are_distances = columns % 4 == 0 && columns > 4 && columns <= 4 * kMostBins;
     if (rows != cells || (distances ? !are_distances || columns == class_count : columns != class_count)) continue;
     if (found != nullptr) return nullptr;
     found = &output;

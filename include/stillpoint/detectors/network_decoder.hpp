@@ -103,6 +103,12 @@ class NetworkDecoder {
   /// Masks for what is left, classes by name, boxes in the image: the most confident first.
   void finish(span<const Tensor> outputs, const Letterbox& letterbox, std::vector<RawDetection>& found,
               std::vector<Detection>& detections) const {
+    const auto lost = [&](RawDetection& raw) {
+      return !classes().names(class_index(raw.label)) || !letterbox.clip(raw);
+    };
+    found.erase(std::remove_if(found.begin(), found.end(), lost), found.end());
+    std::stable_sort(found.begin(), found.end(),
+                     [](const RawDetection& a, const RawDetection& b) { return a.score > b.score; });
     if (layout_ == DetectorLayout::yolov8_segmentation || layout_ == DetectorLayout::yolov5_segmentation) {
       const bool v8 = layout_ == DetectorLayout::yolov8_segmentation;
       const BoxesAndPrototypes parts = prototypes(outputs);
@@ -110,11 +116,8 @@ class NetworkDecoder {
                         found);
     }
     detections.clear();
-    std::stable_sort(found.begin(), found.end(),
-                     [](const RawDetection& a, const RawDetection& b) { return a.score > b.score; });
     for (RawDetection& raw : found) {
       const int index = class_index(raw.label);
-      if (!classes().names(index) || !letterbox.clip(raw)) continue;
       Detection detection;
       detection.box = letterbox.to_image(raw);
       detection.mobility = mobility_[static_cast<std::size_t>(index)];

@@ -41,9 +41,9 @@ class OpenCvDetector {
   /// or layout, classes or input size can neither be told nor agree with what was set.
   OpenCvDetector(const std::filesystem::path& model, const Options& options) : name_(model.string()) {
     const ModelFiles files = find_model_files(model, options.config);
-    const InputSize size = input_size(files, options);
     require_backend(options);
     guarded("read", [&] { network_ = cv::dnn::readNet(files.model.string(), files.config.string()); });
+    const InputSize size = input_size(files, options);
     guarded("run", [&] {
       network_.setPreferableBackend(options.backend);
       network_.setPreferableTarget(options.target);

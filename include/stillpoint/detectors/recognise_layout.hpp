@@ -88,15 +88,6 @@ inline bool is_nanodet(span<const Tensor> outputs, const InputSize& input, int c
   return true;
 }
 
-inline bool is_detr(span<const Tensor> outputs, const InputSize& input, int class_count) {
-  if (outputs.size() != 2) return false;
-  const TensorShape &a = outputs[0].shape, &b = outputs[1].shape;
-  if (a.rank() != 3 || b.rank() != 3 || a[0] != 1 || b[0] != 1 || a[1] != b[1]) return false;
-  if (last_stride(input, a[1]) != 0) return false;  // a box for each cell is something else
-  const auto logits = [&](const TensorShape& s) { return s[2] == class_count || s[2] == class_count + 1; };
-  return (logits(a) && b[2] == 4 && !logits(b)) || (logits(b) && a[2] == 4 && !logits(a));
-}
-
 inline bool is_darknet(span<const Tensor> outputs, const InputSize& input, int class_count) {
   for (const Tensor& output : outputs) {
     if (output.shape.rank() != 2 || output.shape[1] != 5 + class_count) return false;
@@ -137,7 +128,8 @@ inline bool fits(DetectorLayout layout, span<const Tensor> outputs, const InputS
     case DetectorLayout::ssd: return one_picture && s[1] == 1 && s[3] == 7;
     case DetectorLayout::yolov7_end2end: return outputs.size() == 1 && s.rank() == 2 && s[1] == 7;
     case DetectorLayout::end2end: return one_list && s[1] <= 1000 && s[2] == 6;
-    case DetectorLayout::detr: return detail::is_detr(outputs, input, nc);
+    case DetectorLayout::detr:  // a box for each cell would be something else
+      return find_queries(outputs, nc) && last_stride(input, s[1]) == 0;
     case DetectorLayout::labelled_boxes: return find_labelled_boxes(outputs).complete();
     case DetectorLayout::nanodet: return detail::is_nanodet(outputs, input, nc, 3);
     case DetectorLayout::picodet: return detail::is_nanodet(outputs, input, nc, 4);

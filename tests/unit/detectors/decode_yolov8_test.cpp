@@ -72,13 +72,13 @@ TEST(YoloMasks, MixturesOfPrototypesDecideByTheirSign) {
 TEST(YoloMasks, OutsideThePictureIsNothing) {
   const MadeTensor prototypes({1, 1, 8, 16}, 1.0f);
   MadeTensor boxes({1, 8, 42});
-  put(boxes, false, 0, {0, 16, 40, 1000, 1, 0, 0, 1});  // from -20 to 20, and far above and below
+  put(boxes, false, 0, {0, 16, 40, 64, 1, 0, 0, 1});  // from -20 to 20, -16 to 48
   std::vector<RawDetection> found;
   decode_yolov8(boxes.view(), kSettings, 1, false, found);
   attach_yolo_masks(boxes.view(), prototypes.view(), {7, true}, kSettings.input, found);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].mask->columns, 10);
-  EXPECT_EQ(found[0].mask->rows, 8);  // not 250: no larger than the prototypes
+  EXPECT_EQ(found[0].mask->rows, 8);  // not 16: no larger than the prototypes
   EXPECT_FALSE(found[0].mask->at(0.2f, 0.5f));
   EXPECT_TRUE(found[0].mask->at(0.8f, 0.5f));
 }

@@ -42,8 +42,6 @@ struct MadeTensor {
   Tensor view() const { return {shape, values.data(), whole_numbers}; }
 };
 
-inline std::vector<Tensor> views(std::initializer_list<MadeTensor> tensors) = delete;  // they would point to the dead
-
 template <class... Made>
 std::vector<Tensor> views(const Made&... tensors) {
   return {tensors.view()...};
