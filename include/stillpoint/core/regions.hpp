@@ -60,7 +60,8 @@ struct BoxMask {
     const auto cell = [](float share, int count) {
       return std::min(static_cast<int>(share * static_cast<float>(count)), count - 1);
     };
-    return inside[static_cast<std::size_t>(cell(y, rows) * columns + cell(x, columns))] != 0;
+    const auto row = static_cast<std::size_t>(cell(y, rows)), column = static_cast<std::size_t>(cell(x, columns));
+    return inside[row * static_cast<std::size_t>(columns) + column] != 0;
   }
 };
 

@@ -23,6 +23,11 @@ struct LabelMap {
   int columns = 0, rows = 0;
   std::vector<std::int16_t> label;
   std::vector<float> score;
+
+  bool contains(int u, int v) const noexcept { return u >= 0 && v >= 0 && u < columns && v < rows; }
+  std::size_t index(int u, int v) const noexcept {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(u);
+  }
 };
 
 /// The classes of scores 1xCxhxw. C == 1 or 2: one class, 0, where it passes one half (C == 2: against the background
@@ -75,51 +80,76 @@ inline LabelMap label_map_from_labels(const Tensor& output) {
   return map;
 }
 
-/// Appends a box with a mask for each part of a class whose cells touch at an edge.
+namespace detail {
+
+/// Cells of one class that touch at their edges.
+struct ConnectedPart {
+  std::vector<std::pair<int, int>> cells;  ///< columns and rows
+  int left = 0, top = 0, right = 0, bottom = 0;
+  double mean_score = 0;
+};
+
+/// The part that a cell belongs to; marks its cells as seen.
+inline void grow_part(const LabelMap& map, int column, int row, std::vector<std::uint8_t>& seen, ConnectedPart& part) {
+  const std::int16_t label = map.label[map.index(column, row)];
+  part.cells.clear();
+  part.left = part.right = column;
+  part.top = part.bottom = row;
+  const auto visit = [&](int u, int v) {
+    if (!map.contains(u, v) || map.label[map.index(u, v)] != label || seen[map.index(u, v)] != 0) return;
+    seen[map.index(u, v)] = 1;
+    part.cells.emplace_back(u, v);
+  };
+  visit(column, row);
+  double sum = 0;
+  for (std::size_t i = 0; i < part.cells.size(); ++i) {  // grows while it is walked through
+    const auto [u, v] = part.cells[i];
+    part.left = std::min(part.left, u);
+    part.right = std::max(part.right, u);
+    part.top = std::min(part.top, v);
+    part.bottom = std::max(part.bottom, v);
+    sum += static_cast<double>(map.score[map.index(u, v)]);
+    visit(u - 1, v);
+    visit(u + 1, v);
+    visit(u, v - 1);
+    visit(u, v + 1);
+  }
+  part.mean_score = sum / static_cast<double>(part.cells.size());
+}
+
+inline std::shared_ptr<const BoxMask> mask_of(const ConnectedPart& part) {
+  auto mask = std::make_shared<BoxMask>();
+  mask->columns = part.right - part.left + 1;
+  mask->rows = part.bottom - part.top + 1;
+  const auto columns = static_cast<std::size_t>(mask->columns);
+  mask->inside.assign(columns * static_cast<std::size_t>(mask->rows), 0);
+  for (const auto& [u, v] : part.cells)
+    mask->inside[static_cast<std::size_t>(v - part.top) * columns + static_cast<std::size_t>(u - part.left)] = 1;
+  return mask;
+}
+
+}  // namespace detail
+
+/// Appends a box with a mask for each part of a class whose cells touch at an edge; its score is the mean over them.
+/// Time linear in the cells.
 /// @param smallest_share  of the picture; what is smaller is left out
-/// The score is the mean over the part's cells. Time linear in the cells.
 inline void append_parts(const LabelMap& map, const DecodeSettings& settings, float smallest_share,
                          std::vector<RawDetection>& found) {
   const float px_per_column = static_cast<float>(settings.input.width) / static_cast<float>(map.columns);
   const float px_per_row = static_cast<float>(settings.input.height) / static_cast<float>(map.rows);
   const double smallest = static_cast<double>(smallest_share) * map.columns * map.rows;
   std::vector<std::uint8_t> seen(map.label.size(), 0);
-  std::vector<std::pair<int, int>> part;  // columns and rows; grows while it is walked through
-  const auto index = [&](int u, int v) {
-    return static_cast<std::size_t>(v) * static_cast<std::size_t>(map.columns) + static_cast<std::size_t>(u);
-  };
+  detail::ConnectedPart part;
   for (int row = 0; row < map.rows; ++row) {
     for (int column = 0; column < map.columns; ++column) {
-      const std::int16_t label = map.label[index(column, row)];
-      if (label == LabelMap::kNothing || seen[index(column, row)] != 0) continue;
-      part.clear();
-      const auto visit = [&](int u, int v) {
-        if (u < 0 || v < 0 || u >= map.columns || v >= map.rows) return;
-        if (map.label[index(u, v)] != label || seen[index(u, v)] != 0) return;
-        seen[index(u, v)] = 1;
-        part.emplace_back(u, v);
-      };
-      visit(column, row);
-      int left = column, right = column, bottom = row;  // scanned row by row: the top is where it began
-      double score = 0;
-      for (std::size_t i = 0; i < part.size(); ++i) {
-        const auto [u, v] = part[i];
-        left = std::min(left, u), right = std::max(right, u), bottom = std::max(bottom, v);
-        score += static_cast<double>(map.score[index(u, v)]);
-        visit(u - 1, v), visit(u + 1, v), visit(u, v - 1), visit(u, v + 1);
-      }
-      const auto mean = static_cast<float>(score / static_cast<double>(part.size()));
-      if (static_cast<double>(part.size()) < smallest || !(mean >= settings.lowest_confidence)) continue;
-
-      auto mask = std::make_shared<BoxMask>();
-      mask->columns = right - left + 1;
-      mask->rows = bottom - row + 1;
-      mask->inside.assign(static_cast<std::size_t>(mask->columns) * static_cast<std::size_t>(mask->rows), 0);
-      for (const auto& [u, v] : part)
-        mask->inside[static_cast<std::size_t>((v - row) * mask->columns + (u - left))] = 1;
-      found.push_back({static_cast<float>(left) * px_per_column, static_cast<float>(row) * px_per_row,
-                       static_cast<float>(right + 1) * px_per_column, static_cast<float>(bottom + 1) * px_per_row, mean,
-                       label, -1, std::move(mask)});
+      const std::int16_t label = map.label[map.index(column, row)];
+      if (label == LabelMap::kNothing || seen[map.index(column, row)] != 0) continue;
+      detail::grow_part(map, column, row, seen, part);
+      const auto score = static_cast<float>(part.mean_score);
+      if (static_cast<double>(part.cells.size()) < smallest || !(score >= settings.lowest_confidence)) continue;
+      found.push_back({static_cast<float>(part.left) * px_per_column, static_cast<float>(part.top) * px_per_row,
+                       static_cast<float>(part.right + 1) * px_per_column,
+                       static_cast<float>(part.bottom + 1) * px_per_row, score, label, -1, detail::mask_of(part)});
     }
   }
 }

@@ -112,13 +112,14 @@ class OpenCvDetector {
       output_names_.assign(wanted.begin(), wanted.end());
       if (wanted.empty()) output_names_ = network_.getUnconnectedOutLayersNames();
     });
-    for (const std::string& output : output_names_) {
-      if (network_.getLayerId(output) >= 0) continue;
-      std::string names;
-      for (const std::string& name : network_.getUnconnectedOutLayersNames())
-        names += (names.empty() ? "" : ", ") + name;
-      throw Error(name_ + ": found no output '" + output + "', expected one of " + names + ", or an inner layer");
-    }
+    for (const std::string& output : output_names_)
+      if (network_.getLayerId(output) < 0) refuse_output(output);
+  }
+  [[noreturn]] void refuse_output(const std::string& output) const {
+    std::string names;
+    for (const std::string& name : network_.getUnconnectedOutLayersNames())
+      names.append(names.empty() ? "" : ", ").append(name);
+    throw Error(name_ + ": found no output '" + output + "', expected one of " + names + ", or an inner layer");
   }
 
   void run(const std::vector<float>& values, const InputSize& size) {

@@ -60,6 +60,12 @@ TEST(ClassList, TheTableOfMobilityKnowsAllOfCocoAndVoc) {
     for (std::size_t i = 0; i < list.size(); ++i) EXPECT_NE(table[list[i]], Mobility::unknown) << list[i];
 }
 
+TEST(ClassList, WhoMovesInCityscapesIsKnown) {
+  const MobilityTable table;
+  const ClassList list = ClassList::cityscapes();
+  for (std::size_t i = 11; i < 19; ++i) EXPECT_EQ(table[list[i]], Mobility::dynamic) << list[i];
+}
+
 TEST(ClassList, OneNameALine) {
   const ClassList list = ClassList::read(file_with("\xef\xbb\xbfperson\r\n  traffic light \n???\ncar\n\n\n"));
   ASSERT_EQ(list.size(), 4u);

@@ -77,6 +77,20 @@ TEST(DecodeNanoDet, RefusesWhatCannotBePaired) {
   EXPECT_THROW(decode_nanodet(views(heads.scores[0], heads.scores[1]), kSettings, kNanoDetMiddle, found), Error);
 }
 
+TEST(DecodeNanoDet, ClassesMayBeAsManyAsBinsOfAnother) {
+  // Twenty columns could be five bins a side; they are the classes of VOC.
+  const DecodeSettings voc{{64, 64}, 20, 0.4f};
+  Heads heads;
+  MadeTensor scores8({64, 20}), scores16({16, 20}), scores32({4, 20});
+  scores16.at({6, 14}) = 0.7f;
+  std::vector<RawDetection> found;
+  decode_nanodet(views(scores8, scores16, scores32, heads.sides[0], heads.sides[1], heads.sides[2]), voc,
+                 kNanoDetMiddle, found);
+  ASSERT_EQ(found.size(), 1u);
+  expect_box(found[0], 23.5f, 23.5f, 71.5f, 31.5f);
+  EXPECT_EQ(found[0].label, 14);
+}
+
 TEST(DecodeNanoDetPlus, ClassesFirstThenBinsMiddlesAtTheCorner) {
   MadeTensor output({1, 85, 3 + 32});
   // 64 + 6: stride 16, column 2, row 1, middle (32, 16).

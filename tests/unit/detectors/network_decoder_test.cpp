@@ -31,6 +31,7 @@ TEST(NetworkDecoder, TheLibrarysListsAreFoundByTheirLength) {
   EXPECT_EQ(classes(MadeTensor({1, 84, 8400}), {640, 640}), 80u);
   EXPECT_EQ(classes(MadeTensor({1, 24, 8400}), {640, 640}), 20u);
   EXPECT_EQ(classes(MadeTensor({1, 8400, 84}), {640, 640}), 80u);
+  EXPECT_EQ(classes(MadeTensor({1, 8400, 25}), {640, 640}), 20u);  // YOLOX; no YOLOv8 with VOC's background
   EXPECT_EQ(classes(MadeTensor({1, 21, 64, 64}), {513, 513}), 21u);
   EXPECT_EQ(classes(MadeTensor({1, 19, 64, 64}), {513, 513}), 19u);
   EXPECT_EQ(classes(MadeTensor({1, 1, 64, 64}), {64, 64}), 1u);
