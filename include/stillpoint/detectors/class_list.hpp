@@ -4,10 +4,10 @@
 
 // The names behind a network's class numbers: lists that come with the library, or a file of the user's.
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -53,97 +53,14 @@ class ClassList {
 
   /// COCO's own numbers, 0 to 90: person is 1, eleven numbers stand for nothing. For DETR, torchvision and TensorFlow.
   static ClassList coco91() {
-    return ClassList({"background",
-                      "person",
-                      "bicycle",
-                      "car",
-                      "motorcycle",
-                      "airplane",
-                      "bus",
-                      "train",
-                      "truck",
-                      "boat",
-                      "traffic light",
-                      "fire hydrant",
-                      "",
-                      "stop sign",
-                      "parking meter",
-                      "bench",
-                      "bird",
-                      "cat",
-                      "dog",
-                      "horse",
-                      "sheep",
-                      "cow",
-                      "elephant",
-                      "bear",
-                      "zebra",
-                      "giraffe",
-                      "",
-                      "backpack",
-                      "umbrella",
-                      "",
-                      "",
-                      "handbag",
-                      "tie",
-                      "suitcase",
-                      "frisbee",
-                      "skis",
-                      "snowboard",
-                      "sports ball",
-                      "kite",
-                      "baseball bat",
-                      "baseball glove",
-                      "skateboard",
-                      "surfboard",
-                      "tennis racket",
-                      "bottle",
-                      "",
-                      "wine glass",
-                      "cup",
-                      "fork",
-                      "knife",
-                      "spoon",
-                      "bowl",
-                      "banana",
-                      "apple",
-                      "sandwich",
-                      "orange",
-                      "broccoli",
-                      "carrot",
-                      "hot dog",
-                      "pizza",
-                      "donut",
-                      "cake",
-                      "chair",
-                      "couch",
-                      "potted plant",
-                      "bed",
-                      "",
-                      "dining table",
-                      "",
-                      "",
-                      "toilet",
-                      "",
-                      "tv",
-                      "laptop",
-                      "mouse",
-                      "remote",
-                      "keyboard",
-                      "cell phone",
-                      "microwave",
-                      "oven",
-                      "toaster",
-                      "sink",
-                      "refrigerator",
-                      "",
-                      "book",
-                      "clock",
-                      "vase",
-                      "scissors",
-                      "teddy bear",
-                      "hair drier",
-                      "toothbrush"});
+    return between_commas(
+        "background,person,bicycle,car,motorcycle,airplane,bus,train,truck,boat,traffic light,fire hydrant,,"
+        "stop sign,parking meter,bench,bird,cat,dog,horse,sheep,cow,elephant,bear,zebra,giraffe,,backpack,"
+        "umbrella,,,handbag,tie,suitcase,frisbee,skis,snowboard,sports ball,kite,baseball bat,baseball glove,"
+        "skateboard,surfboard,tennis racket,bottle,,wine glass,cup,fork,knife,spoon,bowl,banana,apple,"
+        "sandwich,orange,broccoli,carrot,hot dog,pizza,donut,cake,chair,couch,potted plant,bed,,dining table,"
+        ",,toilet,,tv,laptop,mouse,remote,keyboard,cell phone,microwave,oven,toaster,sink,refrigerator,,book,"
+        "clock,vase,scissors,teddy bear,hair drier,toothbrush");
   }
 
   /// Pascal VOC (Everingham et al., 2010), 21 with the background at 0: person is 15.
@@ -154,16 +71,16 @@ class ClassList {
   }
   /// The same 20 without the background: person is 14.
   static ClassList voc() {
-    return ClassList({"aeroplane", "bicycle",     "bird",  "boat",        "bottle", "bus",      "car",
-                      "cat",       "chair",       "cow",   "diningtable", "dog",    "horse",    "motorbike",
-                      "person",    "pottedplant", "sheep", "sofa",        "train",  "tvmonitor"});
+    return between_commas(
+        "aeroplane,bicycle,bird,boat,bottle,bus,car,cat,chair,cow,diningtable,dog,horse,motorbike,person,"
+        "pottedplant,sheep,sofa,train,tvmonitor");
   }
 
   /// The 19 classes of Cityscapes (Cordts et al., 2016) that are evaluated: person is 11.
   static ClassList cityscapes() {
-    return ClassList({"road", "sidewalk", "building", "wall", "fence", "pole", "traffic light", "traffic sign",
-                      "vegetation", "terrain", "sky", "person", "rider", "car", "truck", "bus", "train", "motorcycle",
-                      "bicycle"});
+    return between_commas(
+        "road,sidewalk,building,wall,fence,pole,traffic light,traffic sign,vegetation,terrain,sky,person,"
+        "rider,car,truck,bus,train,motorcycle,bicycle");
   }
 
   static ClassList person() { return ClassList({"person"}); }
@@ -212,6 +129,15 @@ class ClassList {
  private:
   static constexpr std::size_t kLongestName = 200;
 
+  static ClassList between_commas(std::string_view text) {
+    std::vector<std::string> names;
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      names.emplace_back(text.substr(begin, end - begin));
+      begin = end + 1;
+    }
+    return ClassList(std::move(names));
+  }
   static std::string at(const std::filesystem::path& file, std::size_t line) {
     return file.string() + ":" + std::to_string(line);
   }

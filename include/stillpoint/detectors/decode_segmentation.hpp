@@ -149,7 +149,8 @@ inline void append_parts(const LabelMap& map, const DecodeSettings& settings, fl
       if (static_cast<double>(part.cells.size()) < smallest || !(score >= settings.lowest_confidence)) continue;
       found.push_back({static_cast<float>(part.left) * px_per_column, static_cast<float>(part.top) * px_per_row,
                        static_cast<float>(part.right + 1) * px_per_column,
-                       static_cast<float>(part.bottom + 1) * px_per_row, score, label, -1, detail::mask_of(part)});
+                       static_cast<float>(part.bottom + 1) * px_per_row, score, label, RawDetection::kNoSource,
+                       detail::mask_of(part)});
     }
   }
 }

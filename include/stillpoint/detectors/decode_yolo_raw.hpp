@@ -44,17 +44,18 @@ inline YoloCoding yolo_coding(DetectorLayout family) {
   }
 }
 
-/// Decodes heads 1x(A(5+nc))xhxw or 1xAxhxwx(5+nc), in any order.
-/// @throws Error on other shapes, or when there is not one anchor for each box of a cell.
-inline void decode_yolo_raw(span<const Tensor> outputs, const DecodeSettings& settings, const YoloCoding& coding,
-                            std::vector<RawDetection>& found) {
-  struct Head {
-    const float* data;
-    int anchors, height, width, fields;
-    std::ptrdiff_t per_anchor, per_cell, per_field;
-  };
-  std::vector<Head> heads;
-  const int fields = 5 + settings.class_count;
+namespace detail {
+
+/// A head, whichever way its numbers are ordered: those of a box are `per_field` apart.
+struct YoloHead {
+  const float* data;
+  int anchors, height, width;
+  std::ptrdiff_t per_anchor, per_cell, per_field;
+};
+
+/// The smallest stride first.
+inline std::vector<YoloHead> yolo_heads(span<const Tensor> outputs, int fields) {
+  std::vector<YoloHead> heads;
   for (const Tensor& output : outputs) {
     const TensorShape& s = output.shape;
     const bool fields_last = s.rank() == 5;
@@ -62,49 +63,59 @@ inline void decode_yolo_raw(span<const Tensor> outputs, const DecodeSettings& se
                   "yolov3 to yolov7", "heads 1x(A(5+classes))xhxw or 1xAxhxwx(5+classes)", outputs);
     const std::ptrdiff_t cells = std::ptrdiff_t{s[2]} * s[3];
     if (fields_last)
-      heads.push_back({output.data, s[1], s[2], s[3], fields, cells * fields, fields, 1});
+      heads.push_back({output.data, s[1], s[2], s[3], cells * fields, fields, 1});
     else
-      heads.push_back({output.data, s[1] / fields, s[2], s[3], fields, cells * fields, 1, cells});
+      heads.push_back({output.data, s[1] / fields, s[2], s[3], cells * fields, 1, cells});
   }
-  std::stable_sort(heads.begin(), heads.end(), [](const Head& a, const Head& b) { return a.width > b.width; });
+  std::stable_sort(heads.begin(), heads.end(), [](const YoloHead& a, const YoloHead& b) { return a.width > b.width; });
+  return heads;
+}
 
-  std::size_t first_anchor = 0;
-  for (const Head& head : heads) first_anchor += static_cast<std::size_t>(head.anchors);
-  if (first_anchor != coding.anchors.size())
-    throw Error("anchors: found " + std::to_string(coding.anchors.size()) + ", expected " +
-                std::to_string(first_anchor) + " for outputs " + describe(outputs));
-
-  first_anchor = 0;
-  int source = 0;
-  for (std::size_t h = 0; h < heads.size(); ++h) {
-    const Head& head = heads[h];
-    const float stride_x = static_cast<float>(settings.input.width) / static_cast<float>(head.width);
-    const float stride_y = static_cast<float>(settings.input.height) / static_cast<float>(head.height);
-    const float factor = coding.squared ? 2.0f : h < coding.widened.size() ? coding.widened[h] : 1.0f;
-    for (int a = 0; a < head.anchors; ++a) {
-      const Anchor& anchor = coding.anchors[first_anchor + static_cast<std::size_t>(a)];
-      for (int v = 0; v < head.height; ++v) {
-        for (int u = 0; u < head.width; ++u, ++source) {
-          const float* const cell = head.data + a * head.per_anchor + (v * head.width + u) * head.per_cell;
-          const auto field = [&](int k) { return cell[k * head.per_field]; };
-          const float objectness = sigmoid(field(4));
-          if (!(objectness >= settings.lowest_confidence)) continue;
-          const BestClass best = best_class(cell + 5 * head.per_field, settings.class_count, head.per_field);
-          const float score = objectness * sigmoid(best.score);
-          if (!(score >= settings.lowest_confidence)) continue;
-          const auto middle = [&](int k, int g) {
-            return factor * sigmoid(field(k)) - 0.5f * (factor - 1.0f) + static_cast<float>(g);
-          };
-          const auto size = [&](int k, float of_anchor) {
-            const float twice = 2.0f * sigmoid(field(k));
-            return (coding.squared ? twice * twice : std::exp(field(k))) * of_anchor;
-          };
-          append_centred(found, middle(0, u) * stride_x, middle(1, v) * stride_y, size(2, anchor.width),
-                         size(3, anchor.height), score, best.label, source);
-        }
-      }
+/// The boxes of one anchor in all cells.
+/// @param widened  factor on the middles
+inline void decode_yolo_anchor(const YoloHead& head, int anchor_index, const Anchor& anchor, float widened,
+                               bool squared, const DecodeSettings& settings, std::vector<RawDetection>& found) {
+  const float stride_x = static_cast<float>(settings.input.width) / static_cast<float>(head.width);
+  const float stride_y = static_cast<float>(settings.input.height) / static_cast<float>(head.height);
+  const float* cell = head.data + anchor_index * head.per_anchor;
+  for (int v = 0; v < head.height; ++v) {
+    for (int u = 0; u < head.width; ++u, cell += head.per_cell) {
+      const auto field = [&](int k) { return cell[k * head.per_field]; };
+      const float objectness = sigmoid(field(4));
+      if (!(objectness >= settings.lowest_confidence)) continue;
+      const BestClass best = best_class(cell + 5 * head.per_field, settings.class_count, head.per_field);
+      const float score = objectness * sigmoid(best.score);
+      if (!(score >= settings.lowest_confidence)) continue;
+      const auto middle = [&](int k, int g) {
+        return widened * sigmoid(field(k)) - 0.5f * (widened - 1.0f) + static_cast<float>(g);
+      };
+      const auto size = [&](int k, float of_anchor) {
+        const float twice = 2.0f * sigmoid(field(k));
+        return (squared ? twice * twice : std::exp(field(k))) * of_anchor;
+      };
+      append_centred(found, middle(0, u) * stride_x, middle(1, v) * stride_y, size(2, anchor.width),
+                     size(3, anchor.height), score, best.label, RawDetection::kNoSource);
     }
-    first_anchor += static_cast<std::size_t>(head.anchors);
+  }
+}
+
+}  // namespace detail
+
+/// Decodes heads 1x(A(5+nc))xhxw or 1xAxhxwx(5+nc), in any order.
+/// @throws Error on other shapes, or when there is not one anchor for each box of a cell.
+inline void decode_yolo_raw(span<const Tensor> outputs, const DecodeSettings& settings, const YoloCoding& coding,
+                            std::vector<RawDetection>& found) {
+  const std::vector<detail::YoloHead> heads = detail::yolo_heads(outputs, 5 + settings.class_count);
+  std::size_t anchors = 0;
+  for (const detail::YoloHead& head : heads) anchors += static_cast<std::size_t>(head.anchors);
+  if (anchors != coding.anchors.size())
+    throw Error("anchors: found " + std::to_string(coding.anchors.size()) + ", expected " + std::to_string(anchors) +
+                " for outputs " + describe(outputs));
+  std::size_t anchor = 0;
+  for (std::size_t h = 0; h < heads.size(); ++h) {
+    const float widened = coding.squared ? 2.0f : h < coding.widened.size() ? coding.widened[h] : 1.0f;
+    for (int a = 0; a < heads[h].anchors; ++a)
+      detail::decode_yolo_anchor(heads[h], a, coding.anchors[anchor++], widened, coding.squared, settings, found);
   }
 }
 

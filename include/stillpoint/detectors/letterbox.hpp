@@ -16,7 +16,7 @@
 namespace stillpoint {
 
 /// How an image is made to fill the input.
-enum class Fit : std::uint8_t {
+enum class ImageFit : std::uint8_t {
   stretch,             ///< to the whole input, whatever becomes of its proportions
   letterbox_centred,   ///< proportions kept, bars of equal width on both sides
   letterbox_top_left,  ///< proportions kept, bars at the right or below
@@ -28,14 +28,14 @@ class Letterbox {
   int left = 0, top = 0;  ///< first pixel of the input that shows the image
   int width, height;      ///< pixels of the input that show the image
 
-  Letterbox(InputSize image, InputSize input, Fit fit) noexcept
+  Letterbox(InputSize image, InputSize input, ImageFit fit) noexcept
       : width(input.width), height(input.height), image_(image) {
-    if (fit == Fit::stretch) return;
+    if (fit == ImageFit::stretch) return;
     const double scale =
         std::min(static_cast<double>(input.width) / image.width, static_cast<double>(input.height) / image.height);
     width = std::clamp(static_cast<int>(std::lround(image.width * scale)), 1, input.width);
     height = std::clamp(static_cast<int>(std::lround(image.height * scale)), 1, input.height);
-    if (fit == Fit::letterbox_top_left) return;
+    if (fit == ImageFit::letterbox_top_left) return;
     left = (input.width - width) / 2;
     top = (input.height - height) / 2;
   }

@@ -47,6 +47,9 @@ class NetworkDecoder {
     else if (layout_ == DetectorLayout::automatic)
       layout_ = recognise_layout(outputs, input, static_cast<int>(options.classes.size()));
     settings_.class_count = static_cast<int>(classes().size());
+    if (layout_ == DetectorLayout::segmentation && outputs[0].shape[1] <= 2 && classes().starts_with_background() &&
+        !options_.first_class_number)
+      options_.first_class_number = -1;  // the one class that there is comes behind the background
     if (!options_.coding) options_.coding = yolo_coding(layout_);
     for (std::size_t i = 0; i < classes().size(); ++i) mobility_.push_back(options_.mobility[classes()[i]]);
     std::vector<RawDetection> ignored;

@@ -14,7 +14,7 @@ namespace stillpoint {
 /// A value of the input is (value of the image, 0 to 255, minus `mean`) times `scale`, in the network's order of
 /// channels.
 struct Preprocess {
-  Fit fit = Fit::stretch;
+  ImageFit fit = ImageFit::stretch;
   bool rgb = true;  ///< red first; else blue first
   std::array<float, 3> mean = {0, 0, 0};
   std::array<float, 3> scale = {1, 1, 1};
@@ -26,27 +26,30 @@ struct Preprocess {
 inline Preprocess usual_preprocess(DetectorLayout layout) noexcept {
   constexpr float kUnit = 1.0f / 255.0f;
   constexpr std::array<float, 3> kToUnit = {kUnit, kUnit, kUnit};
-  // ImageNet's mean and spread, red first.
+  // ImageNet's mean, and one over its spread, red first.
   constexpr std::array<float, 3> kMean = {123.675f, 116.28f, 103.53f};
-  constexpr std::array<float, 3> kSpread = {1 / 58.395f, 1 / 57.12f, 1 / 57.375f};
+  constexpr std::array<float, 3> kPerSpread = {1 / 58.395f, 1 / 57.12f, 1 / 57.375f};
   switch (layout) {
     case DetectorLayout::yolox:
-    case DetectorLayout::yolox_decoded: return {Fit::letterbox_top_left, false};
+    case DetectorLayout::yolox_decoded: return {ImageFit::letterbox_top_left, false};
     case DetectorLayout::nanodet:
     case DetectorLayout::nanodet_plus:
-      // As NanoDet has it: mean in the order of its channels, blue first, and the spread as if red were.
-      return {Fit::letterbox_centred, false, {kMean[2], kMean[1], kMean[0]}, {1 / 57.375f, 1 / 57.12f, 1 / 58.395f}, 0};
-    case DetectorLayout::picodet: return {Fit::stretch, true, kMean, kSpread};
+      return {ImageFit::letterbox_centred,
+              false,
+              {kMean[2], kMean[1], kMean[0]},
+              {kPerSpread[2], kPerSpread[1], kPerSpread[0]},
+              0};
+    case DetectorLayout::picodet: return {ImageFit::stretch, true, kMean, kPerSpread};
     case DetectorLayout::ssd:
-    case DetectorLayout::mask_rcnn: return {Fit::stretch, true};  // TensorFlow's zoo: the graph does the rest
+    case DetectorLayout::mask_rcnn: return {ImageFit::stretch, true};  // TensorFlow's zoo: the graph does the rest
     case DetectorLayout::yolov3:
     case DetectorLayout::yolov4:
     case DetectorLayout::darknet:
     case DetectorLayout::detr:
     case DetectorLayout::labelled_boxes:
     case DetectorLayout::segmentation:
-    case DetectorLayout::label_map: return {Fit::stretch, true, {0, 0, 0}, kToUnit};
-    default: return {Fit::letterbox_centred, true, {0, 0, 0}, kToUnit};
+    case DetectorLayout::label_map: return {ImageFit::stretch, true, {0, 0, 0}, kToUnit};
+    default: return {ImageFit::letterbox_centred, true, {0, 0, 0}, kToUnit};
   }
 }
 

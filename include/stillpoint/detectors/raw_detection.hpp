@@ -31,10 +31,12 @@ struct DecodeSettings {
 
 /// A box as the network gave it: pixels of its input, where the outer edge of the first pixel is 0.
 struct RawDetection {
+  static constexpr int kNoSource = -1;
+
   float left = 0, top = 0, right = 0, bottom = 0;
   float score = 0;
   int label = 0;                                  ///< the network's own number of the class
-  int source = -1;                                ///< row of the output that it came from: where its mask is
+  int source = kNoSource;                         ///< row of the output that it came from: where its mask is
   std::shared_ptr<const BoxMask> mask = nullptr;  ///< stretched over the box
 };
 

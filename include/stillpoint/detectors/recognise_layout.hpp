@@ -112,7 +112,7 @@ inline bool is_picture(int rows, int columns) noexcept { return rows >= 8 && col
 }  // namespace detail
 
 /// Whether outputs may be of a layout. Looks at shapes, and at values only to tell YOLOX decoded from undecoded.
-inline bool fits(DetectorLayout layout, span<const Tensor> outputs, const InputSize& input, int class_count) {
+inline bool fits_layout(DetectorLayout layout, span<const Tensor> outputs, const InputSize& input, int class_count) {
   if (outputs.empty()) return false;
   const TensorShape& s = outputs[0].shape;
   const int nc = class_count;
@@ -171,7 +171,7 @@ inline std::vector<DetectorLayout> fitting_layouts(span<const Tensor> outputs, c
                                                    int class_count) {
   std::vector<DetectorLayout> layouts;
   for (auto i = static_cast<int>(DetectorLayout::automatic) + 1; i <= static_cast<int>(DetectorLayout::label_map); ++i)
-    if (fits(static_cast<DetectorLayout>(i), outputs, input, class_count))
+    if (fits_layout(static_cast<DetectorLayout>(i), outputs, input, class_count))
       layouts.push_back(static_cast<DetectorLayout>(i));
   return layouts;
 }

@@ -49,7 +49,7 @@ tiny.coding = stillpoint::yolo_coding(tiny.layout);
 tiny.coding->anchors = {{10, 14}, {23, 27}, {37, 58}, {81, 82}, {135, 169}, {344, 319}};
 tiny.classes = stillpoint::ClassList::named(names_file);
 ssd.classes = stillpoint::ClassList::voc21();
-ssd.preprocess = stillpoint::Preprocess{stillpoint::Fit::stretch, false, {127.5f, 127.5f, 127.5f},
+ssd.preprocess = stillpoint::Preprocess{stillpoint::ImageFit::stretch, false, {127.5f, 127.5f, 127.5f},
                                         {0.007843f, 0.007843f, 0.007843f}};
   // clang-format on
   EXPECT_FALSE(tiny.coding->squared);

@@ -13,7 +13,7 @@ namespace {
 constexpr float kTolerance = 1e-2f;  // float arithmetic on a few thousand pixels
 
 TEST(Letterbox, StretchesAxisByAxis) {
-  const Letterbox letterbox({640, 480}, {320, 320}, Fit::stretch);
+  const Letterbox letterbox({640, 480}, {320, 320}, ImageFit::stretch);
   // 0.5 and 2/3 input pixels an image pixel; edges of pixels, half a pixel from their middles.
   const Box box = letterbox.to_image({100, 60, 200, 180});
   EXPECT_NEAR(box.x, 199.5f, kTolerance);
@@ -23,16 +23,16 @@ TEST(Letterbox, StretchesAxisByAxis) {
 }
 
 TEST(Letterbox, BarsAreBelowOrOnBothSides) {
-  const Letterbox centred({640, 480}, {416, 416}, Fit::letterbox_centred);  // scale 0.65: 416x312, bars of 52
+  const Letterbox centred({640, 480}, {416, 416}, ImageFit::letterbox_centred);  // scale 0.65: 416x312, bars of 52
   EXPECT_EQ(centred.width, 416);
   EXPECT_EQ(centred.height, 312);
   EXPECT_EQ(centred.left, 0);
   EXPECT_EQ(centred.top, 52);
-  const Letterbox top_left({640, 480}, {416, 416}, Fit::letterbox_top_left);
+  const Letterbox top_left({640, 480}, {416, 416}, ImageFit::letterbox_top_left);
   EXPECT_EQ(top_left.top, 0);
   EXPECT_NEAR(centred.to_image({65, 52 + 65, 130, 182}).y, 99.5f, kTolerance);
   EXPECT_NEAR(top_left.to_image({65, 65, 130, 130}).y, 99.5f, kTolerance);
-  const Letterbox tall({480, 640}, {416, 416}, Fit::letterbox_centred);
+  const Letterbox tall({480, 640}, {416, 416}, ImageFit::letterbox_centred);
   EXPECT_EQ(tall.left, 52);
   EXPECT_EQ(tall.top, 0);
 }
@@ -43,7 +43,7 @@ TEST(Letterbox, ThereAndBackAgain) {
     const InputSize image{16 + static_cast<int>(random.uniform(0, 2000)),
                           16 + static_cast<int>(random.uniform(0, 2000))};
     const InputSize input{32 + static_cast<int>(random.uniform(0, 640)), 32 + static_cast<int>(random.uniform(0, 640))};
-    const Fit fit = static_cast<Fit>(i % 3);
+    const ImageFit fit = static_cast<ImageFit>(i % 3);
     const Letterbox letterbox(image, input, fit);
     ASSERT_GE(letterbox.left, 0);
     ASSERT_GE(letterbox.top, 0);
@@ -70,7 +70,7 @@ TEST(Letterbox, ThereAndBackAgain) {
 }
 
 TEST(Letterbox, WholeInputIsTheWholeImage) {
-  const Letterbox letterbox({640, 480}, {416, 416}, Fit::letterbox_centred);
+  const Letterbox letterbox({640, 480}, {416, 416}, ImageFit::letterbox_centred);
   RawDetection all{-50, -50, 500, 500};
   ASSERT_TRUE(letterbox.clip(all));
   const Box box = letterbox.to_image(all);
@@ -82,7 +82,7 @@ TEST(Letterbox, WholeInputIsTheWholeImage) {
 }
 
 TEST(Letterbox, WhatLiesInTheBarsIsDropped) {
-  const Letterbox letterbox({640, 480}, {416, 416}, Fit::letterbox_centred);
+  const Letterbox letterbox({640, 480}, {416, 416}, ImageFit::letterbox_centred);
   RawDetection in_bar{10, 10, 60, 52};
   EXPECT_FALSE(letterbox.clip(in_bar));
   RawDetection outside{420, 100, 460, 152};
@@ -90,7 +90,7 @@ TEST(Letterbox, WhatLiesInTheBarsIsDropped) {
 }
 
 TEST(Letterbox, AMaskIsCutWithItsBox) {
-  const Letterbox letterbox({100, 100}, {100, 100}, Fit::stretch);
+  const Letterbox letterbox({100, 100}, {100, 100}, ImageFit::stretch);
   RawDetection detection{-40, 0, 40, 80};
   auto mask = std::make_shared<BoxMask>();
   *mask = {8, 4, std::vector<std::uint8_t>(32, 0)};
@@ -106,7 +106,7 @@ TEST(Letterbox, AMaskIsCutWithItsBox) {
 }
 
 TEST(Letterbox, ExtremeProportionsKeepAPixel) {
-  const Letterbox letterbox({5000, 2}, {100, 100}, Fit::letterbox_centred);
+  const Letterbox letterbox({5000, 2}, {100, 100}, ImageFit::letterbox_centred);
   EXPECT_EQ(letterbox.height, 1);
   EXPECT_EQ(letterbox.width, 100);
 }

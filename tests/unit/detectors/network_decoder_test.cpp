@@ -16,7 +16,7 @@ std::vector<Detection> detections(const NetworkDecoder& decoder, const InputSize
   std::vector<RawDetection> raw;
   std::vector<Detection> found;
   decoder.decode(outputs, raw);
-  decoder.finish(outputs, Letterbox(input, input, Fit::stretch), raw, found);
+  decoder.finish(outputs, Letterbox(input, input, ImageFit::stretch), raw, found);
   return found;
 }
 
@@ -133,6 +133,20 @@ TEST(NetworkDecoder, DeepLabsBackgroundIsNoDetection) {
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(decoder.classes()[static_cast<std::size_t>(found[0].class_index)], "person");
     EXPECT_NEAR(found[0].box.width, 32, kPixelTolerance);
+  }
+}
+
+TEST(NetworkDecoder, OneClassIsTheFirstBehindTheBackground) {
+  const MadeTensor two({1, 2, 16, 16}, 0.9f), one({1, 1, 16, 16}, 0.9f);
+  for (const ClassList& list : {ClassList({"background", "person"}), ClassList({"person"})}) {
+    DetectorOptions options;
+    options.classes = list;
+    for (const MadeTensor& output : {two, one}) {
+      const NetworkDecoder decoder(options, {64, 64}, views(output));
+      const auto found = detections(decoder, {64, 64}, views(output));
+      ASSERT_EQ(found.size(), 1u);
+      EXPECT_EQ(decoder.classes()[static_cast<std::size_t>(found[0].class_index)], "person");
+    }
   }
 }
 

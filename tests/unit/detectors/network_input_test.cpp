@@ -19,12 +19,12 @@ float value(const NetworkInput& input, int channel, int v, int u) {
 
 TEST(NetworkInput, ChannelsMeanAndScaleInTheNetworksOrder) {
   const cv::Mat image(4, 8, CV_8UC3, cv::Scalar(10, 20, 30));  // blue, green, red
-  NetworkInput rgb({8, 4}, {Fit::stretch, true, {1, 2, 3}, {2, 4, 8}});
+  NetworkInput rgb({8, 4}, {ImageFit::stretch, true, {1, 2, 3}, {2, 4, 8}});
   rgb.fill(image);
   EXPECT_FLOAT_EQ(value(rgb, 0, 0, 0), (30 - 1) * 2);
   EXPECT_FLOAT_EQ(value(rgb, 1, 3, 7), (20 - 2) * 4);
   EXPECT_FLOAT_EQ(value(rgb, 2, 2, 5), (10 - 3) * 8);
-  NetworkInput bgr({8, 4}, {Fit::stretch, false, {1, 2, 3}, {2, 4, 8}});
+  NetworkInput bgr({8, 4}, {ImageFit::stretch, false, {1, 2, 3}, {2, 4, 8}});
   bgr.fill(image);
   EXPECT_FLOAT_EQ(value(bgr, 0, 0, 0), (10 - 1) * 2);
   EXPECT_FLOAT_EQ(value(bgr, 2, 2, 5), (30 - 3) * 8);
@@ -38,7 +38,7 @@ TEST(NetworkInput, GrayFillsAllChannels) {
 
 TEST(NetworkInput, BarsHaveThePaddingAfterMeanAndScale) {
   const cv::Mat image(4, 8, CV_8UC1, cv::Scalar(200));
-  NetworkInput centred({8, 8}, {Fit::letterbox_centred, true, {4, 4, 4}, {0.5f, 0.5f, 0.5f}, 114});
+  NetworkInput centred({8, 8}, {ImageFit::letterbox_centred, true, {4, 4, 4}, {0.5f, 0.5f, 0.5f}, 114});
   const Letterbox letterbox = centred.fill(image);
   EXPECT_EQ(letterbox.top, 2);
   EXPECT_FLOAT_EQ(value(centred, 0, 1, 0), 55);

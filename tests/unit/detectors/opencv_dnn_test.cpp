@@ -64,7 +64,7 @@ TEST_F(OpenCvDetectorTest, ColourOrderAndScaleReachTheNetwork) {
   EXPECT_NEAR(found[1].box.height, 64, kBoxTolerance);
   EXPECT_EQ(found[1].mobility, Mobility::dynamic);
 
-  options.preprocess = Preprocess{Fit::stretch, false, {51, 0, 0}, {0.01f, 0.002f, 0.004f}};
+  options.preprocess = Preprocess{ImageFit::stretch, false, {51, 0, 0}, {0.01f, 0.002f, 0.004f}};
   OpenCvDetector blue_first(network("channel_means"), options);
   // (51 - 51)·0.01, 102·0.002 = 0.204, 204·0.004 = 0.816
   EXPECT_EQ(said(blue_first, detect(blue_first, image)), "car 82; bicycle 20; ");
@@ -121,7 +121,7 @@ TEST_F(OpenCvDetectorTest, ARedPatchIsFoundWhereItIs) {
   options.outputs = {"person"};
   cv::Mat image(100, 200, CV_8UC3, cv::Scalar(255, 255, 0));
   image(cv::Rect(100, 20, 40, 50)).setTo(cv::Scalar(0, 0, 255));
-  for (const Fit fit : {Fit::stretch, Fit::letterbox_centred, Fit::letterbox_top_left}) {
+  for (const ImageFit fit : {ImageFit::stretch, ImageFit::letterbox_centred, ImageFit::letterbox_top_left}) {
     options.preprocess = Preprocess{fit, true, {0, 0, 0}, {1 / 255.0f, 1 / 255.0f, 1 / 255.0f}, 0};
     OpenCvDetector detector(network("first_channel"), options);
     EXPECT_EQ(detector.layout(), DetectorLayout::segmentation);
