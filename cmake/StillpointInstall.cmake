@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn]): one export set a component, so that a host that asks for
-# `core` never looks for OpenCV.
+# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn]): one export set a component, so that a host that asks
+# for `core` never looks for OpenCV.
 
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
