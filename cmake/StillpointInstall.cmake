@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io]): one export set a component, so that a host that asks for
-# `core` never looks for OpenCV.
+# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn]): one export set a component, so that a host that asks
+# for `core` never looks for OpenCV.
 
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -10,6 +10,7 @@ include(GNUInstallDirs)
 set(package_dir "${CMAKE_INSTALL_DATADIR}/cmake/stillpoint")
 list(JOIN STILLPOINT_OPENCV_COMPONENTS " " package_opencv_components)
 list(JOIN STILLPOINT_IO_OPENCV_COMPONENTS " " package_io_opencv_components)
+list(JOIN STILLPOINT_DNN_OPENCV_COMPONENTS " " package_dnn_opencv_components)
 list(JOIN STILLPOINT_COMPONENTS " " package_components)
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/stillpoint" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
@@ -19,6 +20,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATAD
 set(component_targets_core stillpoint_core)
 set(component_targets_stillpoint stillpoint)
 set(component_targets_io stillpoint_io)
+set(component_targets_dnn stillpoint_dnn)
 foreach(component IN LISTS STILLPOINT_COMPONENTS)
   install(TARGETS ${component_targets_${component}} EXPORT stillpoint-${component})
   install(EXPORT stillpoint-${component} NAMESPACE stillpoint:: DESTINATION "${package_dir}")

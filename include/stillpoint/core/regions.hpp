@@ -60,7 +60,8 @@ struct BoxMask {
     const auto cell = [](float share, int count) {
       return std::min(static_cast<int>(share * static_cast<float>(count)), count - 1);
     };
-    return inside[static_cast<std::size_t>(cell(y, rows) * columns + cell(x, columns))] != 0;
+    const auto row = static_cast<std::size_t>(cell(y, rows)), column = static_cast<std::size_t>(cell(x, columns));
+    return inside[row * static_cast<std::size_t>(columns) + column] != 0;
   }
 };
 
@@ -72,7 +73,8 @@ struct Detection {
   double nearest_m = 0.0;   ///< depth of the thing itself: what is nearer or farther in its box is something else …
   double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres
   std::shared_ptr<const BoxMask> mask =
-      nullptr;  ///< none: all of the box; shared, so that a detection can be copied freely
+      nullptr;                    ///< none: all of the box; shared, so that a detection can be copied freely
+  std::int16_t class_index = -1;  ///< in the detector's list of classes, for overlays; -1: not known
 
   /// Features without a depth (0) are taken to be of the thing.
   bool holds(const Vector2f& pixel, double depth_m) const noexcept {

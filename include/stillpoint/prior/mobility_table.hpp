@@ -18,12 +18,13 @@ namespace stillpoint {
 /// table is `Mobility::unknown`: its box says nothing.
 class MobilityTable {
  public:
-  /// The table for COCO's and VOC's names: people, animals and vehicles are dynamic; what people carry and push is
-  /// movable; furniture and appliances are fixed (the paper, 3.2: wall, TV, table; chair, mouse, bottle).
+  /// The table for COCO's and VOC's names, and who moves in Cityscapes: people, animals and vehicles are dynamic; what
+  /// people carry and push is movable; furniture and appliances are fixed (the paper, 3.2: wall, TV, table; chair,
+  /// mouse, bottle).
   MobilityTable() {
-    for (const char* name : {"person", "bicycle", "car",   "motorcycle", "motorbike", "airplane", "aeroplane",
-                             "bus",    "train",   "truck", "boat",       "bird",      "cat",      "dog",
-                             "horse",  "sheep",   "cow",   "elephant",   "bear",      "zebra",    "giraffe"})
+    for (const char* name : {"person", "bicycle",  "car",  "motorcycle", "motorbike", "airplane", "aeroplane", "bus",
+                             "train",  "truck",    "boat", "bird",       "cat",       "dog",      "horse",     "sheep",
+                             "cow",    "elephant", "bear", "zebra",      "giraffe",   "rider"})
       set(name, Mobility::dynamic);
     for (const char* name :
          {"chair",          "bottle",     "mouse",      "backpack",      "umbrella",    "handbag",  "tie",

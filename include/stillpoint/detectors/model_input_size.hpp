@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How large an image does a network want? Its file says so, but OpenCV does not hand it on.
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <ios>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "stillpoint/detectors/raw_detection.hpp"
+
+namespace stillpoint {
+
+namespace detail {
+
+/// One field after another of a message in protobuf's encoding (protobuf.dev, "Encoding"), of those that ONNX uses.
+class ProtobufFields {
+ public:
+  ProtobufFields(std::ifstream& file, std::int64_t begin, std::int64_t end)
+      : file_(file), at_(begin), next_(begin), end_(end) {}
+
+  int number = 0;                      ///< of the field
+  std::uint64_t value = 0;             ///< if it is an integer …
+  std::int64_t content = 0, size = 0;  ///< … else where its bytes are
+
+  /// False at the end, and where the file is broken: what follows is for the library that runs it to complain about.
+  bool next() {
+    at_ = next_;
+    if (at_ >= end_) return false;
+    file_.clear();
+    file_.seekg(at_);
+    std::uint64_t key = 0;
+    if (!varint(key)) return false;
+    number = static_cast<int>(key >> 3);
+    value = 0;
+    content = at_;
+    size = 0;
+    switch (key & 7) {
+      case 0: return varint(value) && advance(0);
+      case 1: return advance(8);
+      case 2: {
+        std::uint64_t length = 0;
+        if (!varint(length) || length > static_cast<std::uint64_t>(end_ - at_)) return false;
+        content = at_;
+        size = static_cast<std::int64_t>(length);
+        return advance(size);
+      }
+      case 5: return advance(4);
+      default: return false;
+    }
+  }
+
+  ProtobufFields message() const { return {file_, content, content + size}; }
+  std::string text() const {
+    std::string result(static_cast<std::size_t>(size), '\0');
+    file_.clear();
+    file_.seekg(content);
+    file_.read(result.data(), size);
+    return result;
+  }
+
+ private:
+  bool varint(std::uint64_t& result) {
+    result = 0;
+    for (int shift = 0; shift < 64; shift += 7) {
+      const int byte = file_.get();
+      if (byte < 0) return false;
+      ++at_;
+      result |= static_cast<std::uint64_t>(byte & 127) << shift;
+      if ((byte & 128) == 0) return true;
+    }
+    return false;
+  }
+  bool advance(std::int64_t bytes) {
+    next_ = at_ + bytes;
+    return next_ <= end_;
+  }
+
+  std::ifstream& file_;
+  std::int64_t at_, next_, end_;
+};
+
+/// ValueInfoProto: name 1, type 2 { tensor 1 { shape 2 { dimension 1 { value 1 } } } }.
+inline std::vector<int> onnx_shape(const ProtobufFields& value_info, std::string& name) {
+  std::vector<int> shape;
+  for (ProtobufFields info = value_info; info.next();) {
+    if (info.number == 1) name = info.text();
+    if (info.number != 2) continue;
+    for (ProtobufFields type = info.message(); type.next();)
+      for (ProtobufFields tensor = type.message(); type.number == 1 && tensor.next();)
+        for (ProtobufFields dims = tensor.message(); tensor.number == 2 && dims.next();) {
+          if (dims.number != 1) continue;
+          shape.push_back(0);  // a dimension without a number is free
+          for (ProtobufFields dim = dims.message(); dim.next();)
+            if (dim.number == 1 && dim.value <= static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+              shape.back() = static_cast<int>(dim.value);
+        }
+  }
+  return shape;
+}
+
+}  // namespace detail
+
+/// Size of the first input 1x3xHxW of an ONNX file (onnx.proto: ModelProto.graph 7, GraphProto.input 11); zeros where
+/// the file leaves it free or is no such file.
+inline InputSize onnx_input_size(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream) return {};
+  for (detail::ProtobufFields model(stream, 0, bytes); model.next();) {
+    if (model.number != 7) continue;
+    for (detail::ProtobufFields graph = model.message(); graph.next();) {
+      if (graph.number != 11) continue;
+      std::string name;
+      const std::vector<int> shape = detail::onnx_shape(graph.message(), name);
+      if (shape.size() == 4 && shape[1] == 3) return {shape[3], shape[2]};
+    }
+  }
+  return {};
+}
+
+/// `width` and `height` of a Darknet .cfg; zeros where it has none.
+inline InputSize darknet_input_size(const std::filesystem::path& file) {
+  InputSize size;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::string packed;
+    for (const char c : line)
+      if (c != ' ' && c != '\t' && c != '\r') packed += c;
+    if (packed.compare(0, 6, "width=") == 0 && size.width == 0) size.width = std::atoi(packed.c_str() + 6);
+    if (packed.compare(0, 7, "height=") == 0 && size.height == 0) size.height = std::atoi(packed.c_str() + 7);
+    if (!packed.empty() && packed[0] == '[' && packed != "[net]" && packed != "[network]") break;
+  }
+  return size;
+}
+
+}  // namespace stillpoint

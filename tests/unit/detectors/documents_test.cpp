@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// The code of docs/detectors.md, line by line: tests/structure/documents.sh looks for each of its lines here.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/core.hpp>
+#include <vector>
+
+// clang-format off
+#include <stillpoint/detectors/opencv_dnn.hpp>
+#include <stillpoint/stillpoint.hpp>
+// clang-format on
+
+namespace {
+
+TEST(Documents, ADetectorBeforeTheFilter) {
+  const std::filesystem::path model = std::filesystem::path(STILLPOINT_TEST_NETWORKS) / "channel_means.onnx";
+  if (!std::filesystem::exists(model)) GTEST_SKIP() << "no made networks: Python had no module onnx";
+  const stillpoint::Camera camera(80, 80, 47.5, 31.5, 96, 64);
+  const cv::Mat bgr(64, 96, CV_8UC3, cv::Scalar(0, 0, 255)), depth(64, 96, CV_16UC1, cv::Scalar(10000));
+  const std::vector<cv::KeyPoint> keypoints;
+  const double time = 1.0;
+  // clang-format off
+stillpoint::OpenCvDetector::Options options;
+options.lowest_confidence = 0.5f;
+options.mobility.set("chair", stillpoint::Mobility::dynamic);   // on wheels here
+stillpoint::OpenCvDetector detector(model, options);            // .onnx, .weights, .pb, .caffemodel
+
+stillpoint::FrameFilter<> filter(camera);
+detector.detect(bgr, filter.prior.detections);
+const auto& result = filter.filter_frame({bgr, depth, time}, keypoints);
+  // clang-format on
+  EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
+  ASSERT_EQ(filter.prior.detections.size(), 1u);
+  EXPECT_EQ(filter.prior.detections[0].mobility, stillpoint::Mobility::dynamic);
+}
+
+TEST(Documents, OptionsOfNetworksThatAreNotAsUsual) {
+  const std::string names_file = (std::filesystem::path(testing::TempDir()) / "stillpoint_my.names").string();
+  std::ofstream(names_file) << "person\nrobot\n";
+  stillpoint::DetectorOptions tiny, ssd;
+  // clang-format off
+tiny.layout = stillpoint::DetectorLayout::yolov3;
+tiny.coding = stillpoint::yolo_coding(tiny.layout);
+tiny.coding->anchors = {{10, 14}, {23, 27}, {37, 58}, {81, 82}, {135, 169}, {344, 319}};
+tiny.classes = stillpoint::ClassList::named(names_file);
+ssd.classes = stillpoint::ClassList::voc21();
+ssd.preprocess = stillpoint::Preprocess{stillpoint::ImageFit::stretch, false, {127.5f, 127.5f, 127.5f},
+                                        {0.007843f, 0.007843f, 0.007843f}};
+  // clang-format on
+  EXPECT_FALSE(tiny.coding->squared);
+  EXPECT_EQ(tiny.classes.size(), 2u);
+  EXPECT_FLOAT_EQ(ssd.preprocess->mean[0], 127.5f);
+}
+
+}  // namespace
