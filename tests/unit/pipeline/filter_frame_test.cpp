@@ -387,6 +387,19 @@ TEST_F(FrameFilterTest, ResetForgetsFramesAndPosesButNoSetting) {
   EXPECT_EQ(filter_.gate.level, 3.0);
 }
 
+TEST_F(FrameFilterTest, TheStandOfTheCameraIsTheLastMotionsUntilReset) {
+  at(1.0);
+  filter_.ego_motion.answer.standing = false;
+  at(1.1);
+  EXPECT_TRUE(filter_.ego_motion.asked.standing) << "robots are switched on standing";
+  at(1.2);
+  EXPECT_FALSE(filter_.ego_motion.asked.standing);
+  filter_.reset();
+  at(1.3);
+  at(1.4);
+  EXPECT_TRUE(filter_.ego_motion.asked.standing);
+}
+
 // ---- Key points and masks ----
 
 TEST_F(FrameFilterTest, TakesAnyContiguousRangeOfKeypoints) {
