@@ -4,6 +4,7 @@
 
 // The filter that the options ask for, set as they say.
 
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -86,13 +87,19 @@ decltype(auto) with_filter(const Options& options, const stillpoint::Camera& cam
 }
 
 /// Tells a filter what is known of the coming frame before it looks.
+/// @param answer  of the detector; one that is there and empty says that it saw nothing
 template <class Policies>
-void prepare(stillpoint::FrameFilter<Policies>& filter, const SourceFrame&,
-             const std::vector<stillpoint::Detection>& detections) {
-  filter.prior.detections = detections;
+void prepare(stillpoint::FrameFilter<Policies>& filter, const SourceFrame& frame,
+             const std::optional<std::vector<stillpoint::Detection>>& answer) {
+  if constexpr (std::is_same_v<typename Policies::Prior, stillpoint::PropagatedPrior>) {
+    if (answer) filter.prior.detected(frame.timestamp_s, *answer);
+  } else {
+    filter.prior.detections.clear();  // it holds them until they are written again
+    if (answer) filter.prior.detections = *answer;
+  }
 }
 inline void prepare(examples::OracleFilter& filter, const SourceFrame& frame,
-                    const std::vector<stillpoint::Detection>&) {
+                    const std::optional<std::vector<stillpoint::Detection>>&) {
   filter.labels = frame.labels;
 }
 

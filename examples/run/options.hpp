@@ -35,6 +35,8 @@ struct Options {
   double false_positive_rate = stillpoint::TailGate::Options{}.false_positive_rate;
   Without without;  ///< corrections that are switched off
   std::string prior = "none";
+  int detect_every = 1;     ///< frames from one answer of the detector to the next
+  double drop_boxes = 0.0;  ///< share of the boxes that it misses
   std::string backend = "odometry";
   int features = 1000;
   int start = 0;
@@ -160,6 +162,9 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
       if (options.prints_error(name))
         throw stillpoint::Error("--paper-as-printed: found " + std::string(name) +
                                 " with --ego-motion rigid, expected --ego-motion epipolar, whose printed error it is");
+  if (options.prior != "boxes")
+    for (const char* name : {"--detect-every", "--drop-boxes"})
+      if (given(name)) throw stillpoint::Error(std::string(name) + ": found without boxes, expected --prior boxes");
   if (options.prior == "labels")
     for (const char* name :
          {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise", "--false-positive-rate", "--without"})
@@ -216,6 +221,10 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
       app, "--prior", options.prior, {"none", "boxes", "labels"},
       "where something may move; labels is an oracle that drops what the labels call a mover, a yardstick. The demo of "
       "the paper's method takes boxes unless told otherwise");
+  add_number("--detect-every", options.detect_every, 1, most, "boxes of every N-th frame alone are handed over");
+  app.add_option("--drop-boxes", options.drop_boxes, "share of the boxes that is left out at random, by --seed")
+      ->type_name("SHARE")
+      ->check(detail::number(0.0, 1.0, "0 to 1"));
   detail::add_choice(app, "--backend", options.backend, {"odometry", "none"}, "the tracker behind the filter");
   add_number("--features", options.features, 1, 100000, "ORB features a frame");
   add_number("--start", options.start, 0, most, "first frame, counted from 0");
@@ -248,8 +257,10 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
     return list.empty() ? std::string("nothing") : list;
   };
   const bool is_paper = options.policies == "paper";
-  char rate[32];
-  *std::to_chars(rate, rate + sizeof rate - 1, options.false_positive_rate).ptr = '\0';
+  const auto shortest = [](double number) {
+    char digits[32];
+    return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
+  };
   const bool all_frames = options.frames == std::numeric_limits<int>::max();
   return {{"sequence", options.demo ? "--demo" : "--tum " + options.tum.string()},
           {"--camera", options.camera.empty() ? "the sequence's own" : options.camera.string()},
@@ -257,9 +268,11 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
           {"--policies", options.policies},
           {"--ego-motion", options.ego_motion},
           {"--paper-as-printed", joined(options.as_printed)},
-          {"--false-positive-rate", is_paper ? "n/a" : rate},
+          {"--false-positive-rate", is_paper ? "n/a" : shortest(options.false_positive_rate)},
           {"--without", joined(options.without.names)},
           {"--prior", options.prior},
+          {"--detect-every", std::to_string(options.detect_every)},
+          {"--drop-boxes", shortest(options.drop_boxes)},
           {"--backend", options.backend},
           {"--features", std::to_string(options.features)},
           {"--start", std::to_string(options.start)},

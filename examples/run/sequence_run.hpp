@@ -13,6 +13,7 @@
 
 #include "backends.hpp"
 #include "csv_files.hpp"
+#include "detection_feed.hpp"
 #include "figures.hpp"
 #include "filters.hpp"
 #include "frame_record.hpp"
@@ -80,7 +81,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, Filter a_filte
                      Backend unfiltered_backend, const RunOutput& output) {
   stillpoint::FilteredTracker filtered(std::move(a_filter), std::move(behind_filter));
   stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));
-  const stillpoint::MobilityTable mobility;
+  DetectionFeed detector(options);
   const std::size_t count = frame_count(options, source), first = static_cast<std::size_t>(options.start);
   Progress progress(count, options.quiet);
 
@@ -94,8 +95,9 @@ RunRecord run_frames(const Options& options, FrameSource& source, Filter a_filte
   for (std::size_t i = first; i < first + count; ++i) {
     const SourceFrame frame = source.load(i);
     const stillpoint::FrameView view = frame.view();
-    const std::vector<stillpoint::Detection> detections = detections_of(frame, mobility);
-    prepare(filtered.filter, frame, detections);
+    const std::optional<std::vector<stillpoint::Detection>> answer = detector.next(frame);
+    const std::vector<stillpoint::Detection> detections = answer.value_or(std::vector<stillpoint::Detection>());
+    prepare(filtered.filter, frame, answer);
     record.summary = FrameSummary{};
     record.summary.timestamp_s = frame.timestamp_s;
     const auto pose = filtered.track(view, [&](const std::vector<cv::KeyPoint>& keypoints, const auto& result) {

@@ -30,6 +30,7 @@ class FrameFilter : private PolicyContract<Policies> {
  public:
   using Camera = typename Policies::Camera;
   using DepthNoise = typename Policies::DepthNoise;
+  using Prior = typename Policies::Prior;
   using Matcher = typename Policies::Matcher;
   using EgoMotion = typename Policies::EgoMotion;
   using Memory = typename Policies::Memory;
@@ -40,7 +41,7 @@ class FrameFilter : private PolicyContract<Policies> {
   FrameCheck frame_check;                       ///< which frames can be judged at all?
   DepthNoise depth_noise;                       ///< how wrong is a depth?
   typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
-  typename Policies::Prior prior;               ///< where may something move?
+  Prior prior;                                  ///< where may something move?
   Matcher matcher;                              ///< where was each feature before?
   EgoMotion ego_motion;                         ///< how did the camera move?
   typename Policies::Scorer scorer;             ///< how badly does each feature disagree with that motion?
@@ -79,9 +80,10 @@ class FrameFilter : private PolicyContract<Policies> {
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
   void reset() {
     history_.clear();
+    reset_policy(prior);
     matcher.reset();
+    reset_policy(gate);
     memory.reset();
-    forget(gate);
     expectation_ = MotionExpectation();
   }
 
@@ -106,6 +108,7 @@ class FrameFilter : private PolicyContract<Policies> {
       motion = ego_motion.estimate(matches_, regions_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
+    observe(*this, matches_, motion, timings);
     if (!motion.usable()) return motion.status;
     look_back(*this, history_, frame, regions_, matches_, motion, workspace_, timings);
 

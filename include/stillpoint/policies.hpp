@@ -23,6 +23,7 @@
 #include "stillpoint/motion/support_motion.hpp"
 #include "stillpoint/prior/box_prior.hpp"
 #include "stillpoint/prior/foreground_prior.hpp"
+#include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/score/offset_score.hpp"
 #include "stillpoint/score/sighting_score.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
@@ -57,7 +58,7 @@ struct DefaultPolicies {
   using Camera = stillpoint::Camera;
   using DepthNoise = AnyDepthNoise;
   using DepthLookup = GuardedDepth;
-  using Prior = ForegroundPrior;
+  using Prior = PropagatedPrior;
   using Matcher = PatchMatcher;
   using EgoMotion = SupportMotion;
   using Scorer = SightingScore;

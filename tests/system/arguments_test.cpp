@@ -16,9 +16,26 @@ namespace {
 TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
   const Outcome outcome = run_program("--help");
   EXPECT_EQ(outcome.status, 0);
-  for (const char* name : {"--demo", "--tum", "--out", "--camera", "--depth-noise", "--policies", "--ego-motion",
-                           "--paper-as-printed", "--false-positive-rate", "--without", "--prior", "--backend",
-                           "--features", "--start", "--frames", "--seed", "--threads", "--quiet"})
+  for (const char* name : {"--demo",
+                           "--tum",
+                           "--out",
+                           "--camera",
+                           "--depth-noise",
+                           "--policies",
+                           "--ego-motion",
+                           "--paper-as-printed",
+                           "--false-positive-rate",
+                           "--without",
+                           "--prior",
+                           "--detect-every",
+                           "--drop-boxes",
+                           "--backend",
+                           "--features",
+                           "--start",
+                           "--frames",
+                           "--seed",
+                           "--threads",
+                           "--quiet"})
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
   for (const char* later : {"klt", "--euroc", "--images", "--video", "MODEL"})
     EXPECT_EQ(outcome.out.find(later), std::string::npos) << later;
@@ -57,6 +74,13 @@ TEST(StillpointRunArguments, NumbersThatAreNone) {
   expect_error("--demo --start=-1", {"--start", "found '-1'", "expected a whole number from 0"});
   expect_error("--demo --seed=-1", {"--seed", "found '-1'", "expected a whole number from 0"});
   expect_error("--demo --threads 0", {"--threads", "found '0'", "expected a whole number from 1"});
+}
+
+TEST(StillpointRunArguments, OfADetectorGoWithBoxes) {
+  expect_error("--demo --detect-every 10", {"--detect-every", "expected --prior boxes"});
+  expect_error("--demo --prior none --drop-boxes 0.5", {"--drop-boxes", "expected --prior boxes"});
+  expect_error("--demo --prior boxes --detect-every 0", {"--detect-every", "found '0'", "a whole number from 1"});
+  expect_error("--demo --prior boxes --drop-boxes 1.5", {"--drop-boxes", "found '1.5'", "a number from 0 to 1"});
 }
 
 TEST(StillpointRunArguments, UnknownOnesAreNamed) {

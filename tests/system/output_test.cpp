@@ -253,6 +253,26 @@ TEST(DemoChoices, EveryChoiceRuns) {
   }
 }
 
+/// In which of the first five frames a box was handed over; the person of the demo fills a good part of it.
+std::vector<bool> frames_with_boxes(const std::string& choice) {
+  const TemporaryFolder other;
+  const Outcome outcome = run_program("--demo --quiet --backend none --frames 5 --prior boxes --out " +
+                                      quoted(other / "out") + ' ' + choice);
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  const auto rows = read_csv(other / "out" / "features.csv");
+  std::map<std::string, bool> has_box;
+  for (std::size_t i = 1; i < rows.size(); ++i) has_box[rows[i][0]] = has_box[rows[i][0]] || rows[i][9] == "dynamic";
+  std::vector<bool> found;
+  for (const auto& frame : has_box) found.push_back(frame.second);
+  return found;
+}
+
+TEST(DemoChoices, ADetectorMayBeSlowOrMiss) {
+  EXPECT_EQ(frames_with_boxes(""), std::vector<bool>(5, true));
+  EXPECT_EQ(frames_with_boxes("--detect-every 2"), (std::vector<bool>{true, false, true, false, true}));
+  EXPECT_EQ(frames_with_boxes("--drop-boxes 1"), std::vector<bool>(5, false));
+}
+
 TEST(DemoChoices, OneFrameIsEnough) {
   const TemporaryFolder other;
   ASSERT_EQ(run_program("--demo --quiet --frames 1 --out " + quoted(other / "out")).status, 0);

@@ -41,8 +41,14 @@ template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().rec
 
 template <class P, class = void> struct learns : std::false_type {};
 template <class P> struct learns<P, std::void_t<decltype(std::declval<P&>().learn(
-    std::declval<const Matches&>(), std::declval<span<const Label>>())), decltype(std::declval<P&>().reset())>>
-    : std::true_type {};
+    std::declval<const Matches&>(), std::declval<span<const Label>>()))>> : std::true_type {};
+
+template <class P, class Camera, class = void> struct observes : std::false_type {};
+template <class P, class Camera> struct observes<P, Camera, std::void_t<decltype(std::declval<P&>().observe(
+    std::declval<const Matches&>(), std::declval<const Motion&>(), std::declval<const Camera&>()))>> : std::true_type {};
+
+template <class P, class = void> struct resets : std::false_type {};
+template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().reset())>> : std::true_type {};
 
 // clang-format on
 
@@ -64,8 +70,15 @@ void survey(Stages& stages, const FrameHistory& history, const FrameView& frame,
   if constexpr (recalls<Memory>::value) timings.run(Stage::memory, [&] { stages.memory.recall(matches, workspace); });
 }
 
-/// After it: the matcher looks for every feature in the older frames, and the motion may be refined by what is seen
-/// there.
+/// When the motion is known, be it usable or not: the prior may carry its regions along.
+template <class Stages>
+void observe(Stages& stages, const Matches& matches, const Motion& motion, Timings& timings) {
+  if constexpr (observes<typename Stages::Prior, typename Stages::Camera>::value)
+    timings.run(Stage::prior, [&] { stages.prior.observe(matches, motion, stages.camera); });
+}
+
+/// After the motion: the matcher looks for every feature in the older frames, and the motion may be refined by what is
+/// seen there.
 template <class Stages>
 void look_back(Stages& stages, const FrameHistory& history, const FrameView& frame, const Regions& regions,
                Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
@@ -86,10 +99,10 @@ void learn(Gate& gate, const Matches& matches, span<const Label> labels) {
   if constexpr (learns<Gate>::value) gate.learn(matches, labels);
 }
 
-/// And forgets it where the filter does.
-template <class Gate>
-void forget(Gate& gate) {
-  if constexpr (learns<Gate>::value) gate.reset();
+/// A prior or a gate may remember frames: these are forgotten with all others.
+template <class Policy>
+void reset_policy(Policy& policy) {
+  if constexpr (resets<Policy>::value) policy.reset();
 }
 
 }  // namespace stillpoint

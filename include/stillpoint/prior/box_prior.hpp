@@ -27,8 +27,12 @@ class BoxPrior {
   void regions(const FrameView&, Regions& regions) const {
     regions.detections.clear();
     for (const Detection& detection : detections)
-      if (valid(detection.box) && valid(detection.mask.get()) && detection.confidence >= options.lowest_confidence)
-        regions.detections.push_back(detection);
+      if (is_valid(detection)) regions.detections.push_back(detection);
+  }
+
+ protected:
+  bool is_valid(const Detection& detection) const noexcept {
+    return valid(detection.box) && valid(detection.mask.get()) && detection.confidence >= options.lowest_confidence;
   }
 
  private:

@@ -16,8 +16,9 @@
 
 namespace stillpoint {
 
-/// The prior of `DefaultPolicies`. The thing that a box was drawn around fills most of its middle: the median depth
-/// there is the thing's, and what is much nearer or farther is something else seen past it.
+/// Detections of the coming frame, each with the depth of its thing. The thing that a box was drawn around fills most
+/// of its middle: the median depth there is the thing's, and what is much nearer or farther is something else seen past
+/// it.
 class ForegroundPrior : public BoxPrior {
  public:
   double reach_m = 0.2;        ///< the thing reaches this far from the middle's depth, either way
@@ -30,7 +31,8 @@ class ForegroundPrior : public BoxPrior {
     for (Detection& detection : regions.detections) set_range(frame.depth, to_depth, detection);
   }
 
- private:
+ protected:
+  /// Leaves the range as it is where there is too little depth.
   void set_range(const DepthView& depth, const DepthScale& to_depth, Detection& detection) const {
     constexpr int kColumns = 9, kRows = 18;
     std::array<float, kColumns * kRows> samples;

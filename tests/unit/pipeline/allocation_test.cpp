@@ -111,7 +111,6 @@ TYPED_TEST(AllocationTest, NothingIsAllocatedInSteadyState) {
 TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
   mock::Clip clip(3, 40);
   FrameFilter<DefaultPolicies> filter(mock::Clip::camera());
-  filter.prior.detections = clip.detections;
   ASSERT_GE(mock::Clip(3, 1).frames[0].keypoints.size(), 200u);
   std::size_t judged_frames = 0, after_warm_up = 0;
   for (std::size_t f = 0; f < clip.frames.size(); ++f) {
@@ -120,14 +119,17 @@ TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
     if (f >= kWarmUp && f % 3 == 0) frame.keypoints.resize(frame.keypoints.size() / 2);
     if (f >= kWarmUp && f % 4 == 0) frame.keypoints[0] = {1e30f, -5.0f};
     if (f == 30) frame.depth.setTo(0);
+    if (f % 4 == 0) filter.prior.detections = clip.detections;  // carried in the frames between
     allocations = 0;
     counting = true;
+    if (f % 8 == 6) filter.prior.detected(clip.frames[f - 3].time_s, clip.detections);
     const FrameResult& result = filter.filter_frame(frame.view(), frame.keypoints);
     counting = false;
     judged_frames += judged(result.status());
     if (f >= kWarmUp) after_warm_up += allocations;
   }
   EXPECT_GE(judged_frames, 35u) << "a filter that judges nothing proves nothing";
+  EXPECT_FALSE(filter.prior.things().empty());
   EXPECT_EQ(after_warm_up, 0u);
 }
 

@@ -22,8 +22,9 @@ class DeterminismTest : public testing::Test {
     mock::Answer answer;
     std::size_t judged_frames = 0, dropped = 0;
 
-    explicit Run(const mock::Clip& c) : clip(c) { filter.prior.detections = clip.detections; }
+    explicit Run(const mock::Clip& c) : clip(c) {}
     void step(std::size_t f) {
+      if (f % 2 == 0) filter.prior.detections = clip.detections;
       const FrameResult& result = filter.filter_frame(clip.frames[f].view(), clip.frames[f].keypoints);
       answer.add(result);
       judged_frames += judged(result.status());

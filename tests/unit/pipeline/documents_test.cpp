@@ -11,6 +11,7 @@
 
 // clang-format off
 #include <stillpoint/stillpoint.hpp>
+#include <stillpoint/prior/async_detector.hpp>
 // clang-format on
 
 namespace {
@@ -84,6 +85,37 @@ TEST(Documents, TheReplacedStageOfTheReadmeRuns) {
   filter.filter_frame({wall.gray, wall.depth, 1.0}, wall.keypoints);
   const auto& result = filter.filter_frame({wall.gray, wall.depth, 1.03}, wall.keypoints);
   EXPECT_TRUE(stillpoint::judged(result.status())) << to_string(result.status());
+}
+
+struct MyDetector {
+  void detect(const stillpoint::ImageView&, std::vector<stillpoint::Detection>& detections) const {
+    detections.push_back({{100, 80, 60, 120}, stillpoint::Mobility::dynamic, 0.9f});
+  }
+};
+
+TEST(Documents, TheDetectorsLoopRuns) {
+  stillpoint::FrameFilter<> filter(kCamera);
+  const Wall wall;
+  const cv::Mat &gray = wall.gray, &depth = wall.depth;
+  const std::vector<cv::KeyPoint>& keypoints = wall.keypoints;
+  std::vector<stillpoint::Detection> detections;
+  MyDetector{}.detect(gray, detections);
+  const double timestamp_s = 1.0;
+  // clang-format off
+filter.prior.detections = detections;   // taken with the next frame; write nothing where there is no new answer
+filter.prior.detected(timestamp_s, detections);
+stillpoint::AsyncDetector<MyDetector> detector(MyDetector{});   // stillpoint/prior/async_detector.hpp
+stillpoint::DetectorAnswer answer;
+  for (int i = 0; i < 3; ++i) {
+  const double time = 1.0 + 0.03 * i;
+detector.offer(gray, time);   // copies the image; a newer one takes its place if it has to wait
+if (detector.take(answer)) filter.prior.detected(answer.timestamp_s, answer.detections);
+const auto& result = filter.filter_frame({gray, depth, time}, keypoints);
+    // clang-format on
+    EXPECT_EQ(result.size(), keypoints.size());
+    detector.wait();
+  }
+  EXPECT_EQ(filter.prior.things().size(), 1u) << "one thing, seen in every frame";
 }
 
 }  // namespace

@@ -239,6 +239,53 @@ TEST_F(FrameFilterTest, ThePriorsRegionsReachTheMotion) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(memberships[i].in_dynamic, i == 1);
 }
 
+/// A prior that is carried along.
+struct ObservingPrior : mock::Prior {
+  std::size_t features = 0;
+  double depth_m = 0, camera_x_m = 0;
+  Status status = Status::first_frame;
+
+  template <class Camera>
+  void observe(const Matches& matches, const Motion& motion, const Camera&) {
+    note("prior.observe");
+    features = matches.size();
+    depth_m = matches.current.depth_m[0];
+    camera_x_m = motion.current_from_reference.translation().x();
+    status = motion.status;
+  }
+  void reset() { note("prior.reset"); }
+};
+struct ObservingPolicies : mock::Policies {
+  using Prior = ObservingPrior;
+};
+
+TEST(FrameFilterWithAPriorThatObserves, ItIsToldOfEachMotionAndIsResetWithTheRest) {
+  FrameFilter<ObservingPolicies> filter(Camera(50, 50, 31.5, 23.5, 64, 48));
+  mock::Log log;
+  filter.prior.log = filter.matcher.log = filter.ego_motion.log = filter.scorer.log = &log;
+  filter.matcher.own_corners = 2;
+  filter.ego_motion.answer.current_from_reference.translation().x() = 0.5;
+  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(7)), depth(48, 64, CV_16UC1, cv::Scalar(10000));
+  const std::vector<Vector2f> keypoints = {{5, 5}, {6, 6}};
+  const auto at = [&](double time_s) { filter.filter_frame({gray, DepthView(depth), time_s}, keypoints); };
+  at(1.0);
+  EXPECT_EQ(log.count("prior.observe"), 0u) << "nothing has moved yet";
+  log.calls.clear();
+  at(1.1);
+  EXPECT_EQ(log.calls, (std::vector<std::string>{"prior", "match", "motion", "prior.observe", "score"}));
+  EXPECT_EQ(filter.prior.features, 4u) << "the matcher's own corners are in it";
+  EXPECT_EQ(filter.prior.depth_m, 2.0);
+  EXPECT_EQ(filter.prior.camera_x_m, 0.5);
+  filter.ego_motion.answer.status = Status::no_consensus;
+  at(1.2);
+  EXPECT_EQ(filter.prior.status, Status::no_consensus) << "features moved all the same";
+  log.calls.clear();
+  at(0.5);  // time runs backwards
+  EXPECT_EQ(log.count("prior.reset"), 1u);
+  filter.reset();
+  EXPECT_EQ(log.count("prior.reset"), 2u);
+}
+
 TEST_F(FrameFilterTest, ColourBecomesGray) {
   cv::Mat colour(48, 64, CV_8UC3, cv::Scalar(200, 100, 50)), expected;
   cv::cvtColor(colour, expected, cv::COLOR_BGR2GRAY);

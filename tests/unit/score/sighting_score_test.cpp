@@ -23,6 +23,8 @@ class SightingScoreTest : public testing::Test {
   SightingScoreTest() {
     scorer_.options.pixel_sigma = 1.0;
     scorer_.options.alike_share = 1.0;
+    scorer_.options.motion_sigmas = 2.5;
+    scorer_.options.least_noise = 0.3;
     scorer_.options.drift_px_per_s = 2.0;
     scorer_.options.depth_sigmas = 1.0;
     scorer_.options.depth_floor_m = 0.0;
@@ -132,6 +134,45 @@ TEST_F(SightingScoreTest, ThePosesOwnErrorIsNoEvidence) {
   motion_.covariance.topLeftCorner<3, 3>() = 4e-6 * Matrix3d::Identity();
   motion_.covariance.bottomRightCorner<3, 3>() = 16e-6 * Matrix3d::Identity();
   EXPECT_NEAR(evidence({std::sqrt(6.0f), 0}, 0.0f), 1.0f - 1.5f, 1e-3f);
+}
+
+// ---- The motion says how exact its matches are ----
+
+// 2.5 times 0.4 px are the 1 px of the options: no more is ever assumed.
+TEST_F(SightingScoreTest, AnOrdinaryMotionLeavesTheNoiseAsItIs) {
+  for (const double pixel_sigma : {0.0, 0.4, 0.7, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
+    motion_.pixel_sigma = pixel_sigma;
+    EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding) << pixel_sigma;
+    EXPECT_NEAR(evidence({4, 0}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, kRounding) << pixel_sigma;
+  }
+}
+
+// 2.5 · 0.2 = 0.5 of the noise, which is 1 px, or 1 + 2 · 0.5 = 2 px after half a second: half of the displacement is
+// worth as much.
+TEST_F(SightingScoreTest, WithExactMatchesHalfOfTheDisplacementSaysAsMuch) {
+  motion_.pixel_sigma = 0.2;
+  EXPECT_NEAR(evidence({1, 0}, 0.0f), 2.0f - 1.5f, kRounding) << "2 px without";
+  EXPECT_NEAR(evidence({0, 1.5f}, 0.05f), 4.5f + 0.5f - 1.5f, kRounding) << "3 px without; the look counts as ever";
+  EXPECT_NEAR(evidence({2, 0}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, kRounding) << "4 px without: the drift shrinks, too";
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 2.0f - 1.0f, kRounding) << "a depth has no pixels";
+  scorer_.options.alike_share = 0.5;  // and half of that for a patch that looks just alike
+  EXPECT_NEAR(evidence({0.5f, 0}, 0.0f), 2.0f - 1.5f, kRounding);
+}
+
+// A noise of pixel_sigma = 2 px is what the measured one is compared with: 2.5 · 0.4 / 2 is half of it, 1 px.
+TEST_F(SightingScoreTest, TheMeasuredNoiseReplacesTheSupposed) {
+  scorer_.options.pixel_sigma = 2.0;
+  motion_.pixel_sigma = 0.4;
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding);
+}
+
+// 2.5 · 0.12 is the floor of 0.3: 0.6 px are d² = 4, however exact the matches are.
+TEST_F(SightingScoreTest, NoMatchesAreSoExactThatNothingIsLeft) {
+  for (const double pixel_sigma : {0.12, 0.05, 1e-6}) {
+    motion_.pixel_sigma = pixel_sigma;
+    EXPECT_NEAR(evidence({0.6f, 0}, 0.0f), 2.0f - 1.5f, 1e-3f) << pixel_sigma;
+    EXPECT_NEAR(evidence({0, 1.2f}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, 1e-3f) << pixel_sigma;
+  }
 }
 
 TEST_F(SightingScoreTest, OneObjectionAloneIsHalfAnObjection) {

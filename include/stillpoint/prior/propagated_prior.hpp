@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where may something move, when the detector is slow, late or misses?   Boxes are carried along with what they hold.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/prior/carried_detection.hpp"
+#include "stillpoint/prior/foreground_prior.hpp"
+#include "stillpoint/prior/picture_motion.hpp"
+
+namespace stillpoint {
+
+/// The prior of `DefaultPolicies`. An answer of the detector is carried from its frame to the current one by the motion
+/// of the features on each thing, and on from there until it is seen again or expires. Two ways to hand answers over:
+/// - `prior.detections = {...}` before `filter_frame`: seen in the coming frame. The prior takes them (the vector is
+///   empty afterwards); a frame for which nothing was written has no answer.
+/// - `prior.detected(timestamp_s, detections)`: seen in the frame of that time, the coming one or one that is long
+/// past.
+///   Here an empty list is an answer too: the detector looked and saw nothing.
+class PropagatedPrior : public ForegroundPrior {
+ public:
+  struct Carrying {
+    double longest_s = 2.0;           ///< a thing that was not seen for longer is forgotten
+    int most_missed = 8;              ///< and one that was missing in more answers in a row
+    double growth_per_s = 0.2;        ///< share of its size by which an unseen box grows on each side, each second
+    double half_life_s = 1.0;         ///< in which the confidence of an unseen box halves
+    float least_overlap = 0.2f;       ///< intersection over union above which a new box is a carried thing's
+    std::size_t fewest_features = 4;  ///< on a thing, to be carried by them
+  };
+  Carrying carrying;
+
+  /// An answer of the detector, perhaps late. Answers come in the order of their frames: an older one than the last is
+  /// ignored. So is one of a frame that lies further back than this prior remembers (`PictureMotions::kCapacity`).
+  /// @param timestamp_s  of the frame that was looked at
+  void detected(double timestamp_s, const std::vector<Detection>& found) {
+    if (!(timestamp_s > last_answer_s_)) return;
+    const double interval_s = pictures_.empty() ? 0.0 : pictures_.newest().elapsed_s;
+    if (pictures_.empty() || timestamp_s > pictures_.newest().timestamp_s + 0.5 * interval_s) {
+      detections = found;
+      is_answered_ = true;
+      return;
+    }
+    // The pipeline judges from its second frame on: an answer of the first is taken for one of the second.
+    if (timestamp_s < pictures_[0].timestamp_s - 1.5 * interval_s) return;
+    take_late(pictures_.nearest(timestamp_s), found);
+  }
+
+  /// The regions of a frame: what was seen in it, as it was handed over, then what is carried.
+  void regions(const FrameView& frame, Regions& regions) {
+    const PictureMotion& picture = pictures_.push(frame);
+    for (CarriedDetection& thing : things_) {
+      thing.predict(picture);
+      follow_depth(frame.depth, DepthScale(frame.image(), frame.depth.image), thing);
+    }
+    ForegroundPrior::regions(frame, regions);
+    if (is_answered_ || !detections.empty()) {
+      fresh_.clear();
+      for (const Detection& seen : regions.detections) fresh_.emplace_back(seen, frame.timestamp_s);
+      merge(frame.timestamp_s);
+    }
+    detections.clear();
+    is_answered_ = false;
+    forget(picture);
+    for (const CarriedDetection& thing : things_)
+      if (thing.seen_s < frame.timestamp_s) append(thing, frame.timestamp_s - thing.seen_s, regions);
+  }
+
+  /// What moved how since the frame before: the features on each thing carry it.
+  template <class Camera>
+  void observe(const Matches& matches, const Motion& motion, const Camera& camera) {
+    if (pictures_.empty()) return;
+    pictures_.reserve(matches.size());
+    PictureMotion& picture = pictures_.newest();
+    // Frames without key points lie between: these steps are a part of the way.
+    if (motion.reference_timestamp_s > picture.timestamp_s - 0.99 * picture.elapsed_s) return;
+    picture.set_steps(matches);
+    if (motion.usable()) picture.set_camera_motion(motion, camera);
+    for (CarriedDetection& thing : things_) thing.correct(picture, carrying.fewest_features, workspace_);
+  }
+
+  /// What is known of things in the frame that came last.
+  span<const CarriedDetection> things() const noexcept { return things_; }
+
+  /// Forgets things and frames; `detections` stay, they are of the coming frame.
+  void reset() noexcept {
+    things_.clear();
+    pictures_.clear();
+    last_answer_s_ = -std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  /// Finds the depth of a carried thing, which can't have jumped: then something else is before it, or it is behind
+  /// something, and its old depth stays.
+  void follow_depth(const DepthView& depth, const DepthScale& to_depth, CarriedDetection& thing) const {
+    if (depth.empty()) return;
+    Detection measured = thing.detection;
+    set_range(depth, to_depth, measured);
+    const double jump_m = 0.5 * (measured.nearest_m + measured.farthest_m) - thing.depth_m();
+    if (thing.has_depth_range() && !(std::abs(jump_m) <= reach_m)) return;
+    thing.detection.nearest_m = measured.nearest_m;
+    thing.detection.farthest_m = measured.farthest_m;
+  }
+
+  /// Lives the frames through again that came after the answer's.
+  void take_late(std::size_t frame, const std::vector<Detection>& found) {
+    fresh_.clear();
+    for (const Detection& seen : found) {
+      if (!is_valid(seen)) continue;
+      CarriedDetection thing(seen, pictures_[frame].timestamp_s);
+      set_range(pictures_[frame].depth(), pictures_[frame].to_depth(), thing.detection);
+      thing.correct(pictures_[frame], carrying.fewest_features, workspace_);
+      for (std::size_t i = frame + 1; i < pictures_.size(); ++i) {
+        const PictureMotion& picture = pictures_[i];
+        thing.predict(picture);
+        follow_depth(picture.depth(), picture.to_depth(), thing);
+        thing.correct(picture, carrying.fewest_features, workspace_);
+      }
+      fresh_.push_back(thing);
+    }
+    merge(pictures_[frame].timestamp_s);
+    forget(pictures_.newest());
+  }
+
+  /// Pairs what was seen with what is carried, the best overlap first. What is left over is new, or was missed.
+  void merge(double answer_s) {
+    const Workspace::Scope scope(workspace_);
+    const span<char> is_taken = workspace_.take<char>(fresh_.size()), is_seen = workspace_.take<char>(things_.size());
+    for (;;) {
+      float best = carrying.least_overlap;
+      std::size_t best_fresh = fresh_.size(), best_thing = 0;
+      for (std::size_t f = 0; f < fresh_.size(); ++f) {
+        for (std::size_t t = 0; t < things_.size() && !is_taken[f]; ++t) {
+          if (is_seen[t] || fresh_[f].detection.mobility != things_[t].detection.mobility) continue;
+          const float overlap = intersection_over_union(fresh_[f].detection.box, things_[t].detection.box);
+          if (!(overlap > best)) continue;
+          best = overlap;
+          best_fresh = f;
+          best_thing = t;
+        }
+      }
+      if (best_fresh == fresh_.size()) break;
+      is_taken[best_fresh] = is_seen[best_thing] = 1;
+      things_[best_thing].refresh(fresh_[best_fresh]);
+    }
+    for (std::size_t t = 0; t < is_seen.size(); ++t)
+      if (!is_seen[t]) ++things_[t].missed;
+    for (std::size_t f = 0; f < fresh_.size(); ++f)
+      if (!is_taken[f]) things_.push_back(fresh_[f]);
+    last_answer_s_ = answer_s;
+  }
+
+  void forget(const PictureMotion& picture) {
+    const auto is_gone = [&](const CarriedDetection& thing) {
+      return !(picture.timestamp_s - thing.seen_s <= carrying.longest_s) || thing.missed > carrying.most_missed ||
+             !thing.is_in(picture);
+    };
+    things_.erase(std::remove_if(things_.begin(), things_.end(), is_gone), things_.end());
+  }
+
+  void append(const CarriedDetection& thing, double unseen_s, Regions& regions) const {
+    const auto decay = static_cast<float>(std::exp2(-unseen_s / carrying.half_life_s));
+    const Detection grown = thing.grown(static_cast<float>(carrying.growth_per_s * unseen_s), decay);
+    if (is_valid(grown)) regions.detections.push_back(grown);
+  }
+
+  PictureMotions pictures_;
+  std::vector<CarriedDetection> things_, fresh_;
+  bool is_answered_ = false;  // even if `detections` is empty
+  double last_answer_s_ = -std::numeric_limits<double>::infinity();
+  Workspace workspace_;
+};
+
+}  // namespace stillpoint

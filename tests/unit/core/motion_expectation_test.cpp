@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/core/motion_expectation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace stillpoint {
+namespace {
+
+Pose shift(double x_m) {
+  Pose pose = Pose::Identity();
+  pose.translation().x() = x_m;
+  return pose;
+}
+
+Motion motion(bool standing, Status status = Status::ok) {
+  Motion motion;
+  motion.status = status;
+  motion.standing = standing;
+  if (!standing) motion.current_from_reference = shift(0.1);
+  return motion;
+}
+
+/// Statuses of a frame that could not be judged: its motion is none.
+constexpr Status kUnusable[] = {Status::first_frame, Status::no_keypoints, Status::too_few_matches, Status::no_depth,
+                                Status::no_consensus};
+
+// ---- Does the camera stand? ----
+
+TEST(MotionExpectation, ACameraStandsAtFirst) {
+  MotionExpectation expectation;
+  EXPECT_TRUE(expectation.at(1.0).standing);
+  expectation.expect(shift(0.1));
+  EXPECT_TRUE(expectation.at(1.0).standing) << "what the host says of the pose says nothing of the camera's stand";
+  EXPECT_TRUE(MotionPrior().standing);
+  EXPECT_FALSE(Motion().standing) << "a motion says so only where it knows";
+}
+
+TEST(MotionExpectation, ACameraStandsAsItsLastMotionDid) {
+  MotionExpectation expectation;
+  double time_s = 1.0;
+  for (const bool standing : {true, false, false, true, false}) {
+    expectation.advance(time_s += 0.1, motion(standing));
+    EXPECT_EQ(expectation.at(time_s + 0.1).standing, standing);
+  }
+  expectation.advance(time_s += 0.1, motion(true, Status::consensus_inverted));
+  EXPECT_TRUE(expectation.at(time_s + 0.1).standing) << "usable, if doubtful";
+}
+
+// All ways to an answer carry it: the velocity, the host's word, and none of both.
+TEST(MotionExpectation, TheStandIsSaidWithEveryPose) {
+  for (const bool standing : {true, false}) {
+    MotionExpectation expectation;
+    expectation.advance(1.0, motion(standing));
+    ASSERT_TRUE(expectation.at(1.1).current_from_reference);
+    EXPECT_EQ(expectation.at(1.1).standing, standing);
+    expectation.expect(shift(0.3));
+    ASSERT_TRUE(expectation.at(1.1).current_from_reference->isApprox(shift(0.3)));
+    EXPECT_EQ(expectation.at(1.1).standing, standing);
+    expectation.advance(1.1, motion(false, Status::no_consensus));
+    ASSERT_FALSE(expectation.at(1.2).current_from_reference);
+    EXPECT_EQ(expectation.at(1.2).standing, standing);
+  }
+}
+
+// A wall without texture for a moment is no reason to believe that the camera set off, or stopped.
+TEST(MotionExpectation, AnUnusableMotionLeavesTheStandAsItWas) {
+  for (const Status status : kUnusable) {
+    for (const bool standing : {true, false}) {
+      MotionExpectation expectation;
+      expectation.advance(1.0, motion(standing));
+      expectation.advance(1.1, motion(!standing, status));
+      EXPECT_EQ(expectation.at(1.2).standing, standing) << to_string(status);
+      EXPECT_FALSE(expectation.at(1.2).current_from_reference) << to_string(status);
+    }
+  }
+}
+
+// As FrameFilter::reset does it.
+TEST(MotionExpectation, ACameraStandsAgainWhereAllIsForgotten) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, motion(false));
+  ASSERT_FALSE(expectation.at(1.1).standing);
+  expectation = MotionExpectation();
+  EXPECT_TRUE(expectation.at(1.1).standing);
+  EXPECT_FALSE(expectation.at(1.1).current_from_reference);
+  EXPECT_FALSE(expectation.last_timestamp_s());
+}
+
+// ---- Where will it be? ----
+
+// 0.1 m within 0.1 s are 0.05 m within half of that. The first frame's interval is unknown.
+TEST(MotionExpectation, TheVelocityHolds) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  EXPECT_FALSE(expectation.at(1.1).current_from_reference);
+  expectation.advance(1.1, motion(false));
+  EXPECT_TRUE(expectation.at(1.15).current_from_reference->isApprox(shift(0.05)));
+  EXPECT_TRUE(expectation.at(1.3).current_from_reference->isApprox(shift(0.2)));
+}
+
+TEST(MotionExpectation, TheHostsPosesCorrectTheVelocity) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  expectation.feedback(shift(2.0));
+  expectation.advance(1.1, motion(false));
+  expectation.feedback(shift(1.6));
+  EXPECT_TRUE(expectation.at(1.2).current_from_reference->isApprox(shift(0.4))) << "the camera went left: points right";
+  expectation.advance(1.2, motion(false));
+  EXPECT_TRUE(expectation.at(1.3).current_from_reference->isApprox(shift(0.1))) << "it fell silent";
+}
+
+TEST(MotionExpectation, PosesThatAreNotFiniteSayNothing) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  expectation.advance(1.1, motion(false));
+  const Pose broken = shift(std::numeric_limits<double>::quiet_NaN());
+  expectation.expect(broken);
+  expectation.feedback(broken);
+  EXPECT_TRUE(expectation.at(1.2).current_from_reference->isApprox(shift(0.1)));
+}
+
+}  // namespace
+}  // namespace stillpoint

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/motion/standing_camera.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "motion_scene.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr float kLost = std::numeric_limits<float>::quiet_NaN();
+constexpr double kNoDepth = 0.0;
+
+/// Corners of the filter's own, all in one place: only how far they moved, how far away they are and what memory thinks
+/// of them counts.
+class StandingCameraTest : public testing::Test {
+ protected:
+  StandingCameraTest() {
+    camera_.rest_px = 0.3;
+    camera_.begins_share = 0.9;
+    camera_.continues_share = 0.1;
+  }
+
+  /// @param moved_px  since the last frame
+  void add(std::size_t count, double moved_px, double depth_m, float trust = 1.0f) {
+    const std::size_t first = matches_.size();
+    matches_.resize(first + count);
+    for (std::size_t i = first; i < matches_.size(); ++i) {
+      matches_.state[i] = MatchState::matched;
+      matches_.trust[i] = trust;
+      matches_.reference.undistorted[i] = {300.0, 200.0};
+      // Askew by 3 : 4, so that both coordinates count.
+      matches_.current.undistorted[i] = Vector2d(300.0, 200.0) + moved_px * Vector2d(0.6, -0.8);
+      matches_.current.set_depth(i, depth_m, 0.01, test::test_camera());
+    }
+  }
+
+  /// Another older frame in which every corner was found where it is now, at a pose.
+  OlderFrame& look_back(const Pose& reference_from_current = Pose::Identity()) {
+    OlderFrame& frame = matches_.sightings.add(matches_.size());
+    frame.reference_from_current = reference_from_current;
+    for (std::size_t i = 0; i < matches_.size(); ++i)
+      frame.of_feature[i] = {SightingState::seen, 0.02f, matches_.current.undistorted[i].cast<float>(), 0.0f, 0.0f};
+    return frame;
+  }
+
+  static void move(OlderFrame& frame, std::size_t first, std::size_t count, float moved_px) {
+    for (std::size_t i = first; i < first + count; ++i) frame.of_feature[i].found += moved_px * Vector2f(0.8f, 0.6f);
+  }
+
+  bool stands(bool stood) const { return camera_.since_last_frame(matches_, stood); }
+
+  StandingCamera camera_;
+  Matches matches_;
+};
+
+// ---- Since the last frame ----
+
+TEST_F(StandingCameraTest, StandsWhereAllIsAtRest) {
+  add(100, 0.0, 2.0);
+  EXPECT_TRUE(stands(false));
+  EXPECT_TRUE(stands(true));
+}
+
+TEST_F(StandingCameraTest, WithoutMatchesNothingIsKnown) {
+  EXPECT_FALSE(stands(true));
+  add(100, 0.0, 2.0);
+  for (MatchState& state : matches_.state) state = MatchState::lost;
+  EXPECT_FALSE(stands(true));
+}
+
+TEST_F(StandingCameraTest, BeginsToStandWithNineTenths) {
+  add(91, 0.0, kNoDepth);
+  add(9, 2.0, kNoDepth);
+  EXPECT_TRUE(stands(false));
+  add(9, 2.0, kNoDepth);
+  EXPECT_FALSE(stands(false)) << "91 of 109";
+}
+
+TEST_F(StandingCameraTest, AtRestIsWhatMovedLess) {
+  add(10, 0.29, 2.0);
+  EXPECT_TRUE(stands(false));
+  matches_.resize(0);
+  add(10, 0.31, 2.0);
+  EXPECT_FALSE(stands(true)) << "all of them: nothing is left behind";
+}
+
+// A person at 0.6 m fills four fifths of the view; a wall at 3 m does not move.
+TEST_F(StandingCameraTest, GoesOnStandingWhileAWallBehindIsAtRest) {
+  add(20, 0.0, 3.0);
+  add(80, 2.0, 0.6);
+  EXPECT_TRUE(stands(true));
+  EXPECT_FALSE(stands(false)) << "a camera that moved does not begin to stand with so little";
+}
+
+// The camera moves; its own hood moves along, in front.
+TEST_F(StandingCameraTest, ARobotsOwnHoodIsNoWall) {
+  add(20, 0.0, 0.4);
+  add(80, 2.0, 3.0);
+  EXPECT_FALSE(stands(true));
+  EXPECT_FALSE(stands(false));
+}
+
+TEST_F(StandingCameraTest, TooSmallAWallProvesNothing) {
+  add(9, 0.0, 3.0);
+  add(91, 2.0, 0.6);
+  EXPECT_FALSE(stands(true)) << "9 % of the corners";
+  add(2, 0.0, 3.0);
+  EXPECT_TRUE(stands(true)) << "11 of 102";
+}
+
+TEST_F(StandingCameraTest, WithoutDepthNobodyKnowsWhatLiesBehind) {
+  add(20, 0.0, kNoDepth);
+  add(80, 2.0, kNoDepth);
+  EXPECT_FALSE(stands(true)) << "no depth at all";
+  matches_.resize(20);
+  add(80, 2.0, 0.6);
+  EXPECT_FALSE(stands(true)) << "none at rest";
+  matches_.resize(0);
+  add(20, 0.0, 3.0);
+  add(80, 2.0, kNoDepth);
+  EXPECT_FALSE(stands(true)) << "none that moves";
+}
+
+// Corners without a depth count for the share, but do not draw the mean depth towards them: of 10 at 3 m and 10 without
+// a depth the mean is 3 m.
+TEST_F(StandingCameraTest, TheMeanDepthIsOfThoseThatHaveOne) {
+  add(10, 0.0, 0.5);
+  add(10, 0.0, kNoDepth);
+  add(80, 2.0, 0.6);
+  EXPECT_FALSE(stands(true)) << "at rest at 0.5 m is in front of 0.6 m";
+  matches_.resize(0);
+  add(20, 0.0, 3.0);
+  add(5, 2.0, 2.5);
+  add(75, 2.0, kNoDepth);
+  EXPECT_TRUE(stands(true)) << "3 m is behind 2.5 m";
+}
+
+TEST_F(StandingCameraTest, WhatIsSuspectAtRestProvesLess) {
+  add(20, 0.0, 3.0, 0.1f);
+  add(80, 2.0, 0.6);
+  EXPECT_FALSE(stands(true)) << "2 of 82";
+}
+
+TEST_F(StandingCameraTest, WhatIsSuspectAndMovesDisprovesLess) {
+  add(50, 0.0, 2.0);
+  add(50, 2.0, 2.0, 0.1f);
+  EXPECT_TRUE(stands(false)) << "50 of 55";
+  for (float& trust : matches_.trust) trust = 1.0f;
+  EXPECT_FALSE(stands(false)) << "50 of 100";
+}
+
+// A suspect hood before a wall: by weight what rests is at 1 / ((10 / 3 + 0.1 · 10 / 0.3) / 11) = 1.65 m, behind the 1
+// m of what moves; by count it would be at 1 / ((10 / 3 + 10 / 0.3) / 20) = 0.55 m.
+TEST_F(StandingCameraTest, TrustWeighsTheDepthsToo) {
+  add(10, 0.0, 3.0);
+  add(10, 0.0, 0.3, 0.1f);
+  add(80, 2.0, 1.0);
+  EXPECT_TRUE(stands(true));
+  for (float& trust : matches_.trust) trust = 1.0f;
+  EXPECT_FALSE(stands(true));
+}
+
+// ---- Since older frames ----
+
+TEST_F(StandingCameraTest, WithoutAnOlderFrameNothingSpeaksAgainst) {
+  EXPECT_TRUE(camera_.since_older_frames(matches_));
+}
+
+TEST_F(StandingCameraTest, WhatCreepsShowsInAnOlderFrame) {
+  add(100, 0.05, 2.0);
+  look_back();
+  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  move(look_back(), 0, 100, 0.5f);
+  EXPECT_TRUE(stands(true)) << "not to be seen from frame to frame";
+  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "all moved by half a pixel";
+}
+
+TEST_F(StandingCameraTest, TheOldestFrameOfTheStandIsAsked) {
+  add(100, 0.0, 2.0);
+  move(look_back(), 0, 100, 0.5f);
+  look_back();
+  EXPECT_TRUE(camera_.since_older_frames(matches_)) << "frames come the nearest in time first";
+}
+
+TEST_F(StandingCameraTest, AFrameFromBeforeTheStandIsNotAsked) {
+  add(100, 0.0, 2.0);
+  OlderFrame& moved = look_back(test::pose_of(Vector3d::Zero(), {0.01, 0, 0}));
+  move(moved, 0, 100, 5.0f);
+  EXPECT_TRUE(camera_.since_older_frames(matches_)) << "nobody to ask";
+  matches_.sightings.clear();
+  move(look_back(), 0, 100, 0.5f);
+  move(look_back(test::pose_of({1e-5, 0, 0}, Vector3d::Zero())), 0, 100, 0.0f);
+  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "the older one is not of the stand, however near its pose";
+}
+
+// The person and the wall of above, half a second ago.
+TEST_F(StandingCameraTest, AWallBehindAPersonIsEnoughInAnOlderFrameToo) {
+  add(20, 0.0, 3.0);
+  add(80, 0.0, 0.6);
+  move(look_back(), 20, 80, 4.0f);
+  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  matches_.sightings.clear();
+  move(look_back(), 0, 90, 4.0f);
+  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "all that is left at rest belongs to the person";
+}
+
+TEST_F(StandingCameraTest, ALostSightingSaysNothing) {
+  add(100, 0.0, 2.0);
+  OlderFrame& frame = look_back();
+  for (std::size_t i = 0; i < 95; ++i) {
+    frame.of_feature[i].dissimilarity = kLost;
+    frame.of_feature[i].found = {0, 0};
+  }
+  EXPECT_TRUE(camera_.since_older_frames(matches_)) << "the five that were seen are at rest";
+  for (std::size_t i = 0; i < 95; ++i) frame.of_feature[i].found = matches_.current.undistorted[i].cast<float>();
+  move(frame, 95, 5, 0.5f);
+  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "the five that were seen moved";
+}
+
+TEST_F(StandingCameraTest, WhatWasHiddenOrOutsideSaysNothing) {
+  add(100, 0.0, 2.0);
+  OlderFrame& frame = look_back();
+  move(frame, 0, 95, 5.0f);
+  for (std::size_t i = 0; i < 95; ++i)
+    frame.of_feature[i].state = i % 2 == 0 ? SightingState::occluded : SightingState::none;
+  EXPECT_TRUE(camera_.since_older_frames(matches_));
+}
+
+// Key points are where the host's texture is, perhaps all on one mover; corners are spread over the picture.
+TEST_F(StandingCameraTest, OlderFramesAreAskedForTheFiltersOwnCornersOnly) {
+  add(100, 0.0, 2.0);
+  matches_.host_count = 95;
+  OlderFrame& frame = look_back();
+  move(frame, 0, 95, 5.0f);
+  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  move(frame, 95, 5, 0.5f);
+  EXPECT_FALSE(camera_.since_older_frames(matches_));
+}
+
+}  // namespace
+}  // namespace stillpoint
