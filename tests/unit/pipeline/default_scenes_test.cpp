@@ -8,11 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/filter_frame.hpp"
+#include "stillpoint/io/tum_sequence.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
@@ -72,6 +75,13 @@ Outcome run(const synthetic::Scene& scene, FrameFilter<>& filter, Prior prior = 
   return outcome;
 }
 
+synthetic::SceneOptions full_size(int frames) {
+  synthetic::SceneOptions options;
+  options.frames = frames;
+  options.seed = 1;
+  return options;
+}
+
 synthetic::SceneOptions small(int frames, std::uint64_t seed = 1) {
   synthetic::SceneOptions options;
   options.width = 320;
@@ -88,8 +98,8 @@ void expect_all_judged(const Outcome& outcome) { EXPECT_EQ(outcome.judged, outco
 TEST(DefaultScenes, AStaticRoomHoldsTheSetRate) {
   for (const double rate : {0.01, 0.05}) {
     std::size_t features = 0, dropped = 0;
-    for (const std::uint64_t seed : {1u, 2u}) {
-      const synthetic::Scene scene = synthetic::static_room(small(25, seed));
+    for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
+      const synthetic::Scene scene = synthetic::static_room(small(20, seed));
       FrameFilter<> filter(scene.camera);
       filter.gate.options.false_positive_rate = rate;
       const Outcome outcome = run(scene, filter);
@@ -98,7 +108,7 @@ TEST(DefaultScenes, AStaticRoomHoldsTheSetRate) {
       dropped += outcome.score.background().dropped;
     }
     const double expected = rate * static_cast<double>(features);
-    ASSERT_GT(features, 5000u);
+    ASSERT_GT(features, 20000u);
     EXPECT_LE(static_cast<double>(dropped), expected + 3 * std::sqrt(expected * (1 - rate))) << "rate " << rate;
   }
 }
@@ -109,8 +119,33 @@ TEST(DefaultScenes, ABoxThatNoDetectorKnowsIsFound) {
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
   ASSERT_GT(outcome.score.moving().features, 1000u);
-  EXPECT_GE(outcome.score.recall(), 0.75);
-  EXPECT_LE(outcome.score.false_alarms(), 0.01);
+  EXPECT_GE(outcome.score.recall(), 0.95);
+  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_LE(outcome.worst_position_m, 0.01) << "a pose that the box takes along is off by centimetres";
+}
+
+// Two centimetres a second are a fifth of a pixel from frame to frame: no single pair of frames shows it.
+TEST(DefaultScenes, ABoxThatCreepsIsFound) {
+  synthetic::Scene scene = synthetic::slow_mover(full_size(60));
+  scene.motion_rule.window_frames = 30;  // by which it moves by the rule's centimetre
+  FrameFilter<> filter(scene.camera);
+  const Outcome outcome = run(scene, filter);
+  expect_all_judged(outcome);
+  ASSERT_GT(outcome.score.moving().features, 5000u);
+  EXPECT_GE(outcome.score.recall(), 0.9);
+  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+}
+
+// Someone who sways fills more than three quarters of the picture, and no detector says so: what is left of the room at
+// rest tells that the camera stands. The room has a few features only; they are too few to be counted.
+TEST(DefaultScenes, WhoFillsTheViewOfAStandingCameraIsFound) {
+  const synthetic::Scene scene = synthetic::crowded_view(full_size(101));
+  FrameFilter<> filter(scene.camera);
+  const Outcome outcome = run(scene, filter);
+  expect_all_judged(outcome);
+  ASSERT_GT(outcome.score.moving().features, 20000u);
+  EXPECT_GE(outcome.score.recall(), 0.9);
+  EXPECT_LT(outcome.worst_position_m, 0.005);
 }
 
 TEST(DefaultScenes, WalkingPeopleInBoxesAreFound) {
@@ -119,8 +154,8 @@ TEST(DefaultScenes, WalkingPeopleInBoxesAreFound) {
   const Outcome outcome = run(scene, filter, Prior::boxes);
   expect_all_judged(outcome);
   ASSERT_GT(outcome.score.moving().features, 1000u);
-  EXPECT_GE(outcome.score.recall(), 0.80);
-  EXPECT_LE(outcome.score.false_alarms(), 0.025);
+  EXPECT_GE(outcome.score.recall(), 0.95);
+  EXPECT_LE(outcome.score.false_alarms(), 0.015);
 }
 
 TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
@@ -128,8 +163,8 @@ TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
   FrameFilter<> filter(scene.camera);
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
-  EXPECT_LE(outcome.score.false_alarms(), 0.01);
-  EXPECT_LE(outcome.worst_position_m, 0.015);
+  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_LE(outcome.worst_position_m, 0.01);
 }
 
 TEST(DefaultScenes, AStandingCameraDoesNoHarm) {
@@ -137,8 +172,9 @@ TEST(DefaultScenes, AStandingCameraDoesNoHarm) {
   FrameFilter<> filter(scene.camera);
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
-  EXPECT_GE(outcome.score.recall(), 0.75);
-  EXPECT_LE(outcome.score.false_alarms(), 0.025);
+  EXPECT_GE(outcome.score.recall(), 0.9);
+  EXPECT_LE(outcome.score.false_alarms(), 0.02);
+  EXPECT_LT(outcome.worst_position_m, 0.002) << "it has no motion, not a small one";
 }
 
 // The forearm waves after one second; the rest of the person sits.
@@ -148,9 +184,49 @@ TEST(DefaultScenes, AHandThatWavesIsFoundAndTheSitterKept) {
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
   ASSERT_GT(outcome.score.moving().features, 200u);
-  EXPECT_GE(outcome.score.recall(), 0.45);
-  EXPECT_LE(outcome.score.parked_dropped(), 0.1);
-  EXPECT_LE(outcome.score.false_alarms(), 0.01);
+  EXPECT_GE(outcome.score.recall(), 0.9);
+  EXPECT_LE(outcome.score.parked_dropped(), 0.05);
+  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+}
+
+// A real kitchen in which nothing moves. Features of one frame are dropped together, because they share its motion and
+// their clusters: a frame is one draw, not a thousand. If the share of a frame were the set rate in the mean, then the
+// mean over frames would lie more than three of its standard errors above it once in a thousand cases. Neighbouring
+// frames are alike, too, so that the error is larger than what is computed: the test is rather too strict.
+TEST(DefaultScenes, ARecordedStaticKitchenHoldsTheSetRate) {
+#ifndef STILLPOINT_SHARED_DATA
+  GTEST_SKIP() << "no recorded sequences: STILLPOINT_SHARED_DATA is not set";
+#else
+  const std::filesystem::path folder = std::filesystem::path(STILLPOINT_SHARED_DATA) / "kitchen_static";
+  if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << "no recorded sequence in " << folder;
+  constexpr double kRate = 0.01;
+  const TumSequence sequence(folder);
+  ASSERT_GE(sequence.frames().size(), 60u);
+  FrameFilter<> filter(sequence.camera());
+  filter.gate.options.false_positive_rate = kRate;
+  const cv::Ptr<cv::ORB> orb = cv::ORB::create(1000);
+  double sum = 0, sum_of_squares = 0;
+  int frames = 0;
+  for (std::size_t f = 0; f < 60; ++f) {
+    const RgbdImages images = sequence.load(f);
+    cv::Mat gray;
+    cv::cvtColor(images.colour, gray, cv::COLOR_BGR2GRAY);
+    std::vector<cv::KeyPoint> keypoints;
+    orb->detect(gray, keypoints);
+    const FrameView frame(gray, DepthView(images.depth, sequence.depth_factor()), sequence.frames()[f].timestamp_s);
+    const FrameResult& result = filter.filter_frame(frame, keypoints);
+    if (f == 0) continue;
+    ASSERT_TRUE(judged(result.status())) << "frame " << f << ": " << to_string(result.status());
+    const auto dropped = std::count(result.keep().begin(), result.keep().end(), std::uint8_t{0});
+    const double share = static_cast<double>(dropped) / static_cast<double>(keypoints.size());
+    sum += share;
+    sum_of_squares += share * share;
+    ++frames;
+  }
+  const double mean = sum / frames;
+  const double standard_error = std::sqrt((sum_of_squares / frames - mean * mean) / (frames - 1));
+  EXPECT_LE(mean - 3 * standard_error, kRate) << "mean " << mean << ", standard error " << standard_error;
+#endif
 }
 
 }  // namespace
