@@ -155,7 +155,8 @@ TEST_F(StandingCameraTest, WhatIsSuspectAndMovesDisprovesLess) {
 }
 
 // A suspect hood before a wall: by weight what rests is at 1 / ((10 / 3 + 0.1 · 10 / 0.3) / 11) = 1.65 m, behind the 1
-// m of what moves; by count it would be at 1 / ((10 / 3 + 10 / 0.3) / 20) = 0.55 m.
+// m of what moves; by count it would be at 1 / ((10 / 3 + 10 / 0.3) / 20) = 0.55 m. And a suspect wall behind a hood:
+// at 1 / ((10 / 0.9 + 0.1 · 10 / 3) / 11) = 0.96 m by weight, at 1 / ((10 / 0.9 + 10 / 3) / 20) = 1.38 m by count.
 TEST_F(StandingCameraTest, TrustWeighsTheDepthsToo) {
   add(10, 0.0, 3.0);
   add(10, 0.0, 0.3, 0.1f);
@@ -163,6 +164,13 @@ TEST_F(StandingCameraTest, TrustWeighsTheDepthsToo) {
   EXPECT_TRUE(stands(true));
   for (float& trust : matches_.trust) trust = 1.0f;
   EXPECT_FALSE(stands(true));
+  matches_.resize(0);
+  add(10, 0.0, 0.9);
+  add(10, 0.0, 3.0, 0.1f);
+  add(80, 2.0, 1.0);
+  EXPECT_FALSE(stands(true));
+  for (float& trust : matches_.trust) trust = 1.0f;
+  EXPECT_TRUE(stands(true));
 }
 
 // ---- Since older frames ----
