@@ -43,8 +43,11 @@ class StandingCameraTest : public testing::Test {
   OlderFrame& look_back(const Pose& reference_from_current = Pose::Identity()) {
     OlderFrame& frame = matches_.sightings.add(matches_.size());
     frame.reference_from_current = reference_from_current;
-    for (std::size_t i = 0; i < matches_.size(); ++i)
-      frame.of_feature[i] = {SightingState::seen, 0.02f, matches_.current.undistorted[i].cast<float>(), 0.0f, 0.0f};
+    for (std::size_t i = 0; i < matches_.size(); ++i) {
+      frame.of_feature[i].state = SightingState::seen;
+      frame.of_feature[i].dissimilarity = 0.02f;
+      frame.of_feature[i].found = matches_.current.undistorted[i].cast<float>();
+    }
     return frame;
   }
 

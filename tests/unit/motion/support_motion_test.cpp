@@ -305,6 +305,17 @@ TEST(SupportMotion, WhoFillsTheViewOfAStandingCameraDoesNotTakeItAlong) {
 
 // ---- Refining against older frames ----
 
+/// A patch that looks alike.
+Sighting sighting(const Vector2d& found, double depth_m) {
+  Sighting seen;
+  seen.state = SightingState::seen;
+  seen.dissimilarity = 0.01f;
+  seen.found = found.cast<float>();
+  seen.depth_m = static_cast<float>(depth_m);
+  seen.depth_sigma_m = 0.005f;
+  return seen;
+}
+
 /// Support corners that were seen in two older frames where they should be, while the assumed poses are off.
 struct LookedBack {
   std::array<Pose, 2> truth = {test::pose_of({0.01, 0.02, 0}, {0.03, 0, 0.01}),
@@ -326,10 +337,8 @@ struct LookedBack {
       matches.current.undistorted[i] = {random.uniform(80, 560), random.uniform(80, 400)};
       matches.current.set_depth(i, random.uniform(1.0, 4.0), 0.005, camera);
       for (std::size_t f = 0; f < 2; ++f) {
-        Sighting& sighting = matches.sightings.frames()[f].of_feature[i];
         const Vector3d there = truth[f] * matches.current.point[i];
-        sighting = {SightingState::seen, 0.01f, camera.project(there).cast<float>(), static_cast<float>(there.z()),
-                    0.005f};
+        matches.sightings.frames()[f].of_feature[i] = sighting(camera.project(there), there.z());
       }
     }
     motion.status = Status::ok;
@@ -397,7 +406,7 @@ struct StoodBack {
       matches.current.set_depth(i, random.uniform(1.0, 4.0), 0.005, camera);
       const Vector3d there = since_then.inverse() * matches.current.point[i];
       const Vector2d found = camera.project(there) + noise_px * Vector2d(random.gaussian(), random.gaussian());
-      frame.of_feature[i] = {SightingState::seen, 0.01f, found.cast<float>(), static_cast<float>(there.z()), 0.005f};
+      frame.of_feature[i] = sighting(found, there.z());
     }
     motion.status = Status::ok;
     motion.standing = true;

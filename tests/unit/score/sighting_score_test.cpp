@@ -48,8 +48,13 @@ class SightingScoreTest : public testing::Test {
     matches_.sightings.inverse_depth_sigma[0] = inverse_depth_sigma_;
     frame.reference_from_current = reference_from_current_;
     frame.elapsed_s = elapsed_s;
-    frame.of_feature[0] = {SightingState::seen, dissimilarity, Vector2f(320, 240) + away, depth_m, 0.04f};
-    return frame.of_feature[0];
+    Sighting& sighting = frame.of_feature[0];
+    sighting.state = SightingState::seen;
+    sighting.dissimilarity = dissimilarity;
+    sighting.found = Vector2f(320, 240) + away;
+    sighting.depth_m = depth_m;
+    sighting.depth_sigma_m = 0.04f;
+    return sighting;
   }
 
   float score() {
