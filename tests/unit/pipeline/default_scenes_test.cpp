@@ -139,7 +139,7 @@ TEST(DefaultScenes, ABoxThatCreepsIsFound) {
 // Someone who sways fills more than three quarters of the picture, and no detector says so: what is left of the room at
 // rest tells that the camera stands. The room has a few features only; they are too few to be counted.
 TEST(DefaultScenes, WhoFillsTheViewOfAStandingCameraIsFound) {
-  const synthetic::Scene scene = synthetic::crowded_view(full_size(101));
+  const synthetic::Scene scene = synthetic::crowded_view(full_size(61));
   FrameFilter<> filter(scene.camera);
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
