@@ -26,10 +26,12 @@ struct Correction {
   const char* then;  ///< what the filter does without it
 };
 
-inline constexpr std::array<Correction, 12> kCorrections = {{
+inline constexpr std::array<Correction, 14> kCorrections = {{
     {"whitened", "offsets in radians and metres, Eq. 9, in place of likelihoods"},
     {"calibrated", "the level is the mean score of what stands still, Eq. 10"},
     {"measured-noise", "matches support a motion within 0.1 px, not within the noise"},
+    {"own-noise", "pixel and depth noise as assumed, not as found in the frame; the gate does not learn"},
+    {"standing-camera", "a camera that stands is estimated like any other"},
     {"clusters", "a tenth as many clusters as features, undivided, that decide alone"},
     {"all-features", "only features in boxes of moving classes are tested"},
     {"older-frames", "features are looked for in the last frame alone"},
@@ -79,6 +81,13 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   detail::switch_stages(without, filter);
   stillpoint::SupportMotion& motion = detail::support_motion(filter.ego_motion);
   if (without("measured-noise")) motion.constraints.pixel_sigma = 0.1 / motion.options.inlier_sigmas;
+  if (without("own-noise")) {
+    motion.options.least_pixel_sigma = motion.constraints.pixel_sigma;
+    motion.options.most_depth_noise = 1.0;
+    filter.gate.options.gain = 0.0;
+  }
+  if (without("standing-camera"))
+    motion.standing.begins_share = motion.standing.majority_share = motion.standing.continues_share = 1.0;
   if (without("past-hypothesis")) motion.options.past_preference = std::numeric_limits<double>::infinity();
   if (without("clusters")) {
     auto& clusters = filter.classifier.options;

@@ -70,7 +70,7 @@ struct SwitchedScore : stillpoint::SightingScore {
   /// The fairest scale that two numbers can be: median and 99th percentile of what stands still in
   /// synthetic::static_room become those that likelihoods have there.
   double scaled(double value) const noexcept {
-    constexpr double kMedian = 0.0102, kOnePercent = 0.0306, kLikelihoodMedian = -2.12, kLikelihoodOnePercent = -0.60;
+    constexpr double kMedian = 0.0102, kOnePercent = 0.0306, kLikelihoodMedian = -0.94, kLikelihoodOnePercent = 3.06;
     return kLikelihoodMedian +
            (value - kMedian) * (kLikelihoodOnePercent - kLikelihoodMedian) / (kOnePercent - kMedian);
   }

@@ -28,6 +28,7 @@ struct Sighting {
   Vector2f found = Vector2f::Zero();  ///< undistorted pixel of that patch
   float depth_m = 0;                  ///< measured where the point should be, metres, 0 none
   float depth_sigma_m = 0;
+  float offset_px = 0;  ///< of that patch from where a standing point should be, in the image as it is
 };
 
 /// A piece of smooth surface of the current frame, a cell of a coarse grid. It counts area where there are no corners.

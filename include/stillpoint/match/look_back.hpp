@@ -40,7 +40,9 @@ class LookBack {
     int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
     int surrounding_px = 40;         ///< how far a feature without a depth looks for the surfaces beside it
     double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
-    PatchSearch search = {3, 0.1f};  ///< a standing point is not three pixels away: more steps find look-alikes
+    float clearly_alike = 0.12f;     ///< a feature no more unlike in the last and in the oldest frame …
+    float clearly_there_px = 0.7f;   ///< … and no farther from its place is not looked for in those between
+    PatchSearch search = {3, 0.2f};  ///< a standing point is not three pixels away: more steps find look-alikes
   };
   Options options;
   GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
@@ -134,15 +136,34 @@ class LookBack {
         cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, options.same_surface), patch) &&
         patch.count >= options.fewest_pixels;
     const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
-    float dissimilarity = 0;
-    for (OlderFrame& older : sightings.frames()) {
+    const auto look_at = [&](OlderFrame& older) {
       Sighting& sighting = older.of_feature[i];
       sighting = look_in(history.back(older.age).view(), older.reference_from_current, point,
                          inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
+    };
+    const span<OlderFrame> frames = sightings.frames();
+    const bool is_support = i >= matches.host_count;
+    for (OlderFrame& older : frames) older.of_feature[i] = Sighting{};
+    if (!frames.empty()) look_at(frames[0]);
+    for (std::size_t f = frames.size(); f-- > 1;)  // the oldest, then those between
+      if (f + 1 == frames.size() || is_support || !clearly_stands(i, frames)) look_at(frames[f]);
+    float dissimilarity = 0;
+    for (const OlderFrame& older : frames) {
+      const Sighting& sighting = older.of_feature[i];
       dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : 1.0f;
     }
     return dissimilarity;
+  }
+
+  /// Where neither the last nor the oldest frame objects, those between would not either.
+  bool clearly_stands(std::size_t i, span<const OlderFrame> frames) const noexcept {
+    const auto agrees = [&](const OlderFrame& older) {
+      const Sighting& sighting = older.of_feature[i];
+      return sighting.state == SightingState::seen && sighting.dissimilarity < options.clearly_alike &&
+             sighting.offset_px < options.clearly_there_px;
+    };
+    return agrees(frames[0]) && agrees(frames[frames.size() - 1]);
   }
 
   template <class Camera, class Noise>
@@ -170,6 +191,7 @@ class LookBack {
     if (!fit.inside) return sighting;
     sighting.state = SightingState::seen;
     sighting.dissimilarity = fit.dissimilarity;
+    sighting.offset_px = fit.offset.norm();
     sighting.found = camera.undistort((pixel + fit.offset).template cast<double>()).template cast<float>();
     return sighting;
   }

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -67,12 +68,28 @@ class PatchMask {
   bool applies_to(const ImageView& image) const noexcept {
     return depth_ != nullptr && depth_->image.width == image.width && depth_->image.height == image.height;
   }
-  bool excludes(int u, int v) const noexcept {
-    const auto there = static_cast<double>(depth_->metres(u, v));
-    return there > 0 && std::abs(there - depth_m_) > tolerance_m_;
+  /// Takes out of a row of a patch's mask what lies elsewhere, from pixel (u, v) on.
+  void apply(int u, int v, float* row) const noexcept {
+    if (depth_->image.format == PixelFormat::depth16)
+      apply(depth_->image.row<std::uint16_t>(v) + u, depth_->factor, row);
+    else
+      apply(depth_->image.row<float>(v) + u, 1.0, row);
   }
 
  private:
+  /// Compared in the units of the image: no division a pixel. What is not finite and above 0 is no depth.
+  template <class Depth>
+  void apply(const Depth* depth, double factor, float* row) const noexcept {
+    const auto nearest = static_cast<float>((depth_m_ - tolerance_m_) * factor);
+    const auto farthest = static_cast<float>((depth_m_ + tolerance_m_) * factor);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < Patch::kSide; ++i) {
+      const auto there = static_cast<float>(depth[i]);
+      const bool elsewhere = (there > 0.0f && there < nearest) || (there > farthest && there < kInfinity);
+      row[i] = elsewhere ? 0.0f : row[i];
+    }
+  }
+
   static double depth_at(const DepthView& depth, const Vector2f& pixel) noexcept {
     const auto u = static_cast<int>(pixel.x()), v = static_cast<int>(pixel.y());
     return depth.image.contains(u, v) ? static_cast<double>(depth.metres(u, v)) : 0.0;
@@ -100,8 +117,7 @@ inline bool cut_patch(const ImageView& gray, const Vector2f& centre, const Patch
       patch.gradient_x[k + i] = 0.5f * static_cast<float>(here[i + 1] - here[i - 1]);
       patch.gradient_y[k + i] = 0.5f * static_cast<float>(below[i] - above[i]);
     }
-    for (int i = 0; masked && i < Patch::kSide; ++i)
-      if (mask.excludes(first + i, row)) patch.mask[k + i] = 0.0f;
+    if (masked) mask.apply(first, row, patch.mask.data() + k);
   }
   patch.count = patch.mask.sum();
   if (!(patch.count > 0)) return false;
@@ -121,7 +137,7 @@ inline bool cut_patch(const ImageView& gray, const Vector2f& centre, const Patch
 /// How `find_patch` searches.
 struct PatchSearch {
   int iterations = 5;          ///< steps of at most a pixel
-  float precision_px = 0.03f;  ///< a smaller step ends the search
+  float precision_px = 0.03f;  ///< a smaller step is the last
   float reach_px = 3.0f;       ///< the offset is held within this radius
   /// What a step of one pixel in the patch is in the other image: scale, rotation and shear between the views.
   Eigen::Matrix2f warp = Eigen::Matrix2f::Identity();
@@ -179,7 +195,7 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
   PatchFit best;
   const float determinant = patch.hxx * patch.hyy - patch.hxy * patch.hxy;
   const float warp_px = Patch::kHalf * (search.warp - Eigen::Matrix2f::Identity()).cwiseAbs().maxCoeff();
-  const bool shifted_only = warp_px < 0.15f;
+  const bool shifted_only = warp_px < 0.5f;
   Vector2f offset = Vector2f::Zero();
   PatchArray sample;
   for (int iteration = 0; iteration < search.iterations; ++iteration) {
@@ -201,7 +217,10 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
     offset += step;
     const float length = offset.norm();
     if (length > search.reach_px) offset *= search.reach_px / length;
-    if ((offset - before).norm() < search.precision_px) break;
+    if ((offset - before).norm() < search.precision_px) {
+      if (best.offset == before) best.offset = offset;  // too small a step for another look
+      break;
+    }
   }
   return best;
 }

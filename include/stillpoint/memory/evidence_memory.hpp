@@ -32,7 +32,7 @@ class EvidenceMemory {
     float suspect_above = 1.0f;   ///< log-odds that make a feature suspect
     float suspicion_gain = 0.4f;  ///< what a frame adds: a flicker at a silhouette leaves no lasting suspicion
     float suspicion_persistence = 0.99f;
-    float least_trust = 0.02f;   ///< say of a feature of full suspicion
+    float least_trust = 0.01f;   ///< say of a feature of full suspicion
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
     float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
     float minority = 0.25f;      ///< share of suspect neighbours below which none is handed on; above 1 − this, all

@@ -18,7 +18,8 @@ namespace stillpoint {
 struct StandingCamera {
   double rest_px = 0.3;          ///< a corner that moved less is at rest
   double begins_share = 0.9;     ///< of the weight of all corners that is at rest when a camera comes to stand
-  double continues_share = 0.1;  ///< while it stands, so much is enough, if it lies behind the rest
+  double majority_share = 0.5;   ///< while it stands, so much is enough …
+  double continues_share = 0.1;  ///< … or so much, if it lies behind the rest
 
   /// Between the last frame and this one.
   bool since_last_frame(const Matches& matches, bool stood) const {
@@ -49,7 +50,7 @@ struct StandingCamera {
       const double moved_px = (matches.current.undistorted[i] - sighting.found.cast<double>()).norm();
       census.count(moved_px < rest_px, matches, i);
     }
-    return stands(census, true);
+    return census.empty() || stands(census, true);
   }
 
  private:
@@ -59,6 +60,8 @@ struct StandingCamera {
   };
   struct Census {
     Group resting, moving;
+
+    bool empty() const noexcept { return !(resting.weight + moving.weight > 0); }
 
     void count(bool at_rest, const Matches& matches, std::size_t i) {
       Group& group = at_rest ? resting : moving;
@@ -74,7 +77,7 @@ struct StandingCamera {
     const double all = census.resting.weight + census.moving.weight;
     if (!(all > 0)) return false;
     const double share = census.resting.weight / all;
-    if (share > begins_share) return true;
+    if (share > (stood ? majority_share : begins_share)) return true;
     const bool behind = census.resting.inverse_depth * census.moving.with_depth <
                         census.moving.inverse_depth * census.resting.with_depth;
     return stood && share > continues_share && behind;

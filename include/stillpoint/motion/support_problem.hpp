@@ -51,7 +51,8 @@ class SupportProblem {
     for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.trusted_weight);
   }
 
-  /// Measures the noise of the trusted points, from the medians of their residuals, and sets it for all.
+  /// Measures the noise of the trusted points, from the medians of their residuals, and sets it for all. Of those that
+  /// have a depth: without one the residual has other degrees of freedom.
   /// @param least, most  what is measured is held within these
   /// @return             most pixel noise and least depth noise where nothing is trusted
   SupportNoise calibrate(const Pose& pose, const SupportNoise& least, const SupportNoise& most, Workspace& workspace) {
@@ -59,19 +60,21 @@ class SupportProblem {
     const Workspace::Scope scope(workspace);
     const span<double> squared_px = workspace.take<double>(points_.size());
     const span<double> squared_depth = workspace.take<double>(points_.size());
-    std::size_t pixels = 0, depths = 0;
+    std::size_t count = 0;
     spread(pose);
     for (const PointConstraint& point : points_) {
-      if (!(point.weight > kTrusted)) continue;
+      if (!(point.weight > kTrusted) || !(point.depth_m > 0)) continue;
       const detail::WhitenedPoint whitened(point, poses_[point.frame], camera_);
       if (!std::isfinite(whitened.squared)) continue;
-      squared_px[pixels++] = whitened.error.squaredNorm() * point.pixel_sigma * point.pixel_sigma;
-      if (point.depth_m > 0) squared_depth[depths++] = whitened.depth_error * whitened.depth_error;
+      squared_px[count] = whitened.error.squaredNorm() * point.pixel_sigma * point.pixel_sigma;
+      squared_depth[count++] = whitened.depth_error * whitened.depth_error;
     }
     constexpr double kMedianOfTwo = 1.386, kMedianOfOne = 0.455;  // of χ² with so many degrees of freedom
     SupportNoise noise = {most.pixel_sigma, least.depth_scale};
-    if (pixels > 0) noise.pixel_sigma = std::sqrt(median_in_place(squared_px.first(pixels)) / kMedianOfTwo);
-    if (depths > 0) noise.depth_scale = std::sqrt(median_in_place(squared_depth.first(depths)) / kMedianOfOne);
+    if (count > 0) {
+      noise.pixel_sigma = std::sqrt(median_in_place(squared_px.first(count)) / kMedianOfTwo);
+      noise.depth_scale = std::sqrt(median_in_place(squared_depth.first(count)) / kMedianOfOne);
+    }
     noise.pixel_sigma = std::min(most.pixel_sigma, std::max(least.pixel_sigma, noise.pixel_sigma));
     noise.depth_scale = std::min(most.depth_scale, std::max(least.depth_scale, noise.depth_scale));
     for (PointConstraint& point : points_) {

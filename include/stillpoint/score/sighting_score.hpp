@@ -27,7 +27,7 @@ class SightingScore {
   struct Options {
     double pixel_sigma = 1.0;           ///< of a found patch that looks unlike, pixels
     double alike_share = 0.5;           ///< and of one that looks just alike, of that
-    double motion_sigmas = 2.5;         ///< where the motion says how exact its own matches are: so many of theirs …
+    double motion_sigmas = 3.2;         ///< where the motion says how exact its own matches are: so many of theirs …
     double least_noise = 0.3;           ///< … but no less than this of all that is said here of places, and no more
     double drift_px_per_s = 1.0;        ///< what chained poses and rolling shutter add with time
     double depth_sigmas = 1.5;          ///< measured depth noise over the model's

@@ -88,11 +88,16 @@ TEST(Patch, LeavesOutWhatLiesOnAnotherSurface) {
 TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
   constexpr DepthTolerance kTolerance{0.05, 0.0076};
   EXPECT_NEAR(kTolerance.at(2.0), 0.0804, 1e-12);
-  const cv::Mat depth = (cv::Mat_<float>(1, 6) << 2.0f, 2.0803f, 2.0805f, 1.9197f, 1.9195f, 0.0f);
-  const DepthView view(depth);
-  const PatchMask mask(view, 2.0, kTolerance);
-  const bool excluded[] = {false, false, true, false, true, false};
-  for (int u = 0; u < 6; ++u) EXPECT_EQ(mask.excludes(u, 0), excluded[u]) << u;
+  const cv::Mat metres = (cv::Mat_<float>(1, 8) << 2.0f, 2.0803f, 2.0805f, 1.9197f, 1.9195f, 0.0f, kInfinity, kNaN);
+  cv::Mat tenths;  // of a millimetre
+  metres.convertTo(tenths, CV_16U, 10000.0);
+  tenths.colRange(6, 8) = 0;
+  for (const DepthView& view : {DepthView(metres), DepthView(tenths, 10000.0)}) {
+    float row[8] = {1, 1, 1, 1, 1, 1, 1, 1};
+    PatchMask(view, 2.0, kTolerance).apply(0, 0, row);
+    const float expected[8] = {1, 1, 0, 1, 0, 1, 1, 1};
+    for (int u = 0; u < 8; ++u) EXPECT_EQ(row[u], expected[u]) << u;
+  }
 }
 
 TEST(PatchMask, NeedsADepthAndAnImageOfItsSize) {
