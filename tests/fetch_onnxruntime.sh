@@ -44,8 +44,8 @@ is_right() { [[ -f $1 ]] && sha256sum --check --status <<< "$sha256  $1"; }
 if ! is_right "$archive"; then
   command -v npm > /dev/null || fail 3 'npm was not found, which downloads it (Debian: npm)'
   # npm leaves a file only when all of it has come; in a folder of its own, so that no settings of a project are read.
-  (cd "$work" && npm pack "$package@$version" --ignore-scripts --silent --fetch-retries=3 > npm.log 2>&1) ||
-    fail 4 "npm could not download $package@$version: is there a network? $(tail -n 5 "$work/npm.log" | tr '\n' ' ')"
+  (cd "$work" && npm pack "$package@$version" --ignore-scripts --loglevel=error --fetch-retries=3 > npm.log 2>&1) ||
+    fail 4 "npm could not download $package@$version: is there a network? $(head -n 4 "$work/npm.log" | tr '\n' ' ')"
   [[ $cache == "$work" ]] || mv -f "$work/$package-$version.tgz" "$archive"
   is_right "$archive" || fail 5 "$package@$version has the SHA-256 $(sha256sum < "$archive" | cut -d' ' -f1), expected $sha256"
 fi
