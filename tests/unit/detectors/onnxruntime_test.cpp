@@ -102,6 +102,12 @@ TEST_F(OnnxRuntimeDetectorTest, AnyNumberOfThreadsGivesTheSameAnswer) {
                   "channel_means.onnx: found -1 threads, expected 0");
 }
 
+TEST_F(OnnxRuntimeDetectorTest, RunsWhatOpenCvCannotReadOrRun) {
+  // Their outputs are of no layout: what is said of them shows that they were run.
+  expect_contains(error_of([] { OnnxRuntimeDetector(network("cannot_read")); }), "outputs 1x3x64x3 ");
+  expect_contains(error_of([] { OnnxRuntimeDetector(network("cannot_run")); }), "outputs 1x4x126 ");
+}
+
 TEST_F(OnnxRuntimeDetectorTest, SeveralLiveBesideEachOther) {
   OnnxRuntimeDetector first(network("channel_means"));
   const cv::Mat image(64, 96, CV_8UC3, kWhite);
