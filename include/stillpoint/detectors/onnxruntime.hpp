@@ -145,9 +145,9 @@ class OnnxRuntimeDetector {
       available.emplace_back(session_.GetOutputNameAllocated(i, allocator).get());
     for (const std::string& name : wanted) {
       if (std::find(available.begin(), available.end(), name) != available.end()) continue;
-      std::string names;
-      for (const std::string& other : available) names.append(names.empty() ? "" : ", ").append(other);
-      throw Error("found no output '" + name + "', expected one of " + names);
+      std::string message = "found no output '" + name + "', expected one of";
+      for (const std::string& other : available) message.append(&other == &available[0] ? " " : ", ").append(other);
+      throw Error(message);
     }
     output_names_ = wanted.empty() ? available : wanted;
     converted_.resize(output_names_.size());
@@ -195,8 +195,8 @@ class OnnxRuntimeDetector {
   }
 
   static std::vector<const char*> pointers(const std::vector<std::string>& names) {
-    std::vector<const char*> result;
-    for (const std::string& name : names) result.push_back(name.c_str());
+    std::vector<const char*> result(names.size());
+    std::transform(names.begin(), names.end(), result.begin(), [](const std::string& name) { return name.c_str(); });
     return result;
   }
   static std::string describe(ONNXTensorElementDataType type) {

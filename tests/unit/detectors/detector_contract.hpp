@@ -209,6 +209,8 @@ TYPED_TEST_P(DetectorContract, CanBeMoved) {
   TypeParam first(this->network("channel_means"));
   TypeParam second = std::move(first);
   EXPECT_EQ(this->detect(second, cv::Mat(64, 96, CV_8UC3, cv::Scalar(255, 255, 255))).size(), 3u);
+  second = TypeParam(this->network("duplicates"));
+  EXPECT_EQ(this->said(second, this->detect(second, cv::Mat(64, 96, CV_8UC3))), "person 90; car 80; person 60; ");
 }
 
 TYPED_TEST_P(DetectorContract, WrongOptionsAreSaidAtConstruction) {
