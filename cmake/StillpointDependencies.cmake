@@ -25,3 +25,18 @@ if(STILLPOINT_WITH_OPENCV)
       "stillpoint::core, for hosts that bring their own matches.")
   endif()
 endif()
+
+if(STILLPOINT_ONNXRUNTIME)
+  if(NOT STILLPOINT_WITH_OPENCV)
+    message(FATAL_ERROR "stillpoint: STILLPOINT_ONNXRUNTIME needs STILLPOINT_WITH_OPENCV, which prepares the images")
+  endif()
+  set(ONNXRUNTIME_ROOT "" CACHE PATH "Where ONNX Runtime is, with include/ and lib/")
+  include("${CMAKE_CURRENT_LIST_DIR}/StillpointOnnxRuntime.cmake")
+  if(NOT TARGET onnxruntime::onnxruntime)
+    message(FATAL_ERROR "stillpoint: ONNX Runtime was not found, and STILLPOINT_ONNXRUNTIME is ON. Set ONNXRUNTIME_ROOT to a "
+      "folder with its include/ and lib/, from github.com/microsoft/onnxruntime/releases; or fetch one by: "
+      "bash tests/fetch_onnxruntime.sh build/onnxruntime")
+  endif()
+elseif(PROJECT_IS_TOP_LEVEL)
+  message(STATUS "stillpoint: no target stillpoint::onnxruntime, because STILLPOINT_ONNXRUNTIME is OFF")
+endif()

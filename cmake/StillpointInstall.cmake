@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn]): one export set a component, so that a host that asks
-# for `core` never looks for OpenCV.
+# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn|onnxruntime]): one export set a component, so that a
+# host that asks for `core` never looks for OpenCV.
 
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -21,6 +21,7 @@ set(component_targets_core stillpoint_core)
 set(component_targets_stillpoint stillpoint)
 set(component_targets_io stillpoint_io)
 set(component_targets_dnn stillpoint_dnn)
+set(component_targets_onnxruntime stillpoint_onnxruntime)
 foreach(component IN LISTS STILLPOINT_COMPONENTS)
   install(TARGETS ${component_targets_${component}} EXPORT stillpoint-${component})
   install(EXPORT stillpoint-${component} NAMESPACE stillpoint:: DESTINATION "${package_dir}")
@@ -32,4 +33,4 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/stillpoint-config.cma
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/stillpoint-config-version.cmake"
   COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES "${PROJECT_BINARY_DIR}/stillpoint-config.cmake" "${PROJECT_BINARY_DIR}/stillpoint-config-version.cmake"
-  DESTINATION "${package_dir}")
+  "${PROJECT_SOURCE_DIR}/cmake/StillpointOnnxRuntime.cmake" DESTINATION "${package_dir}")

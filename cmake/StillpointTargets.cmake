@@ -38,4 +38,13 @@ if(STILLPOINT_WITH_OPENCV)
     target_link_libraries(stillpoint_dnn INTERFACE stillpoint ${opencv_libraries})
     list(APPEND STILLPOINT_COMPONENTS dnn)
   endif()
+
+  # stillpoint::onnxruntime: detectors/onnxruntime.hpp.
+  if(STILLPOINT_ONNXRUNTIME)
+    add_library(stillpoint_onnxruntime INTERFACE)
+    add_library(stillpoint::onnxruntime ALIAS stillpoint_onnxruntime)
+    set_target_properties(stillpoint_onnxruntime PROPERTIES EXPORT_NAME onnxruntime)
+    target_link_libraries(stillpoint_onnxruntime INTERFACE stillpoint onnxruntime::onnxruntime)
+    list(APPEND STILLPOINT_COMPONENTS onnxruntime)
+  endif()
 endif()

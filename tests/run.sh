@@ -5,6 +5,8 @@
 # tests/run.sh [PRESET [CTEST ARGUMENT...]]: installs what is missing (as root on Debian), configures, builds, tests.
 # PRESET is one of CMakePresets.json, `release` unless told. From any folder:
 #   bash tests/run.sh dev -R OffsetScore
+# STILLPOINT_ONNXRUNTIME_ROOT: a folder with ONNX Runtime, as tests/fetch_onnxruntime.sh makes it; set, its detector is
+# built and tested, too.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
@@ -22,6 +24,13 @@ finish() {
 }
 trap finish EXIT
 
-cmake --preset "$preset"
+options=()
+if [[ -n ${STILLPOINT_ONNXRUNTIME_ROOT:-} ]]; then
+  options=(-DSTILLPOINT_ONNXRUNTIME=ON "-DONNXRUNTIME_ROOT=$STILLPOINT_ONNXRUNTIME_ROOT")
+else
+  echo 'STILLPOINT_ONNXRUNTIME_ROOT is not set: the tests of the detector on ONNX Runtime are skipped'
+fi
+
+cmake --preset "$preset" "${options[@]}"
 cmake --build --preset "$preset"
 ctest --preset "$preset" "$@" -j2 --output-on-failure

@@ -16,6 +16,9 @@ if(COMPONENT STREQUAL "core")
 else()
   list(APPEND arguments "-DOpenCV_DIR=${OPENCV_DIR}")
 endif()
+if(COMPONENT STREQUAL "onnxruntime")
+  list(APPEND arguments "-DONNXRUNTIME_ROOT=${ONNXRUNTIME_ROOT}")
+endif()
 unset(ENV{CMAKE_BUILD_TYPE})
 
 execute_process(

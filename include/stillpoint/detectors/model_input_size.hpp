@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "stillpoint/core/error.hpp"
 #include "stillpoint/detectors/raw_detection.hpp"
 
 namespace stillpoint {
@@ -124,6 +125,16 @@ inline InputSize onnx_input_size(const std::filesystem::path& file) {
     }
   }
   return {};
+}
+
+/// @throws Error naming the model, if neither its file nor the user has told a size, or it is absurd.
+inline void require_input_size(const InputSize& size, const std::string& model) {
+  constexpr int kLargest = 8192;
+  if (size.width == 0 || size.height == 0)
+    throw Error(model + ": the file does not say how large an input the network wants: set the input size");
+  if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
+    throw Error(model + ": found the input size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
+                ", expected 1 to " + std::to_string(kLargest) + " each");
 }
 
 /// `width` and `height` of a Darknet .cfg; zeros where it has none.

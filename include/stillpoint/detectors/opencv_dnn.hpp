@@ -18,6 +18,7 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/detectors/detector_options.hpp"
+#include "stillpoint/detectors/drop_duplicates.hpp"
 #include "stillpoint/detectors/model_files.hpp"
 #include "stillpoint/detectors/model_input_size.hpp"
 #include "stillpoint/detectors/network_decoder.hpp"
@@ -74,7 +75,7 @@ class OpenCvDetector {
     const Letterbox letterbox = input_.fill(image);
     run(input_.values(), input_.size());
     decoder_.decode(tensors_, found_);
-    if (leaves_duplicates(decoder_.layout())) drop_duplicates();
+    if (leaves_duplicates(decoder_.layout())) drop_duplicates(found_, highest_overlap_);
     decoder_.finish(tensors_, letterbox, found_, detections);
   }
 
@@ -89,13 +90,8 @@ class OpenCvDetector {
     if (size.width == 0 && size.height == 0) {
       if (files.model.extension() == ".onnx") size = onnx_input_size(files.model);
       if (files.config.extension() == ".cfg") size = darknet_input_size(files.config);
-      if (size.width <= 0 || size.height <= 0)
-        throw Error(name_ + ": the file does not say how large an input the network wants: set the input size");
     }
-    constexpr int kLargest = 8192;
-    if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
-      throw Error(name_ + ": found the input size " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                  ", expected 1 to " + std::to_string(kLargest) + " each");
+    require_input_size(size, name_);
     return size;
   }
 
@@ -136,28 +132,6 @@ class OpenCvDetector {
       tensors_.push_back({TensorShape(span<const int>(result.size.p, static_cast<std::size_t>(result.dims))),
                           result.ptr<float>(), whole_numbers});
     }
-  }
-
-  /// Of boxes of one class that overlap, the best is left.
-  void drop_duplicates() {
-    std::stable_sort(found_.begin(), found_.end(),
-                     [](const RawDetection& a, const RawDetection& b) { return a.label < b.label; });
-    std::vector<RawDetection> kept;
-    std::vector<cv::Rect2d> boxes;
-    std::vector<float> scores;
-    std::vector<int> best;
-    for (std::size_t begin = 0, end = 0; begin < found_.size(); begin = end) {
-      boxes.clear();
-      scores.clear();
-      for (end = begin; end < found_.size() && found_[end].label == found_[begin].label; ++end) {
-        const RawDetection& box = found_[end];
-        boxes.emplace_back(box.left, box.top, box.right - box.left, box.bottom - box.top);
-        scores.push_back(box.score);
-      }
-      cv::dnn::NMSBoxes(boxes, scores, 0.0f, highest_overlap_, best);
-      for (const int index : best) kept.push_back(found_[begin + static_cast<std::size_t>(index)]);
-    }
-    found_ = std::move(kept);
   }
 
   /// OpenCV's own exceptions as ours, on one line, with the file's name.

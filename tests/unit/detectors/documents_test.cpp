@@ -13,6 +13,9 @@
 // clang-format off
 #include <stillpoint/detectors/opencv_dnn.hpp>
 #include <stillpoint/stillpoint.hpp>
+#ifdef STILLPOINT_TEST_ONNXRUNTIME
+#include <stillpoint/detectors/onnxruntime.hpp>
+#endif
 // clang-format on
 
 namespace {
@@ -38,6 +41,21 @@ const auto& result = filter.filter_frame({bgr, depth, time}, keypoints);
   ASSERT_EQ(filter.prior.detections.size(), 1u);
   EXPECT_EQ(filter.prior.detections[0].mobility, stillpoint::Mobility::dynamic);
 }
+
+#ifdef STILLPOINT_TEST_ONNXRUNTIME
+TEST(Documents, ADetectorOnOnnxRuntime) {
+  const std::filesystem::path model = std::filesystem::path(STILLPOINT_TEST_NETWORKS) / "channel_means.onnx";
+  if (!std::filesystem::exists(model)) GTEST_SKIP() << "no made networks: Python had no module onnx";
+  // clang-format off
+stillpoint::OnnxRuntimeDetector::Options options;
+options.intra_op_threads = 2;
+stillpoint::OnnxRuntimeDetector detector(model, options);       // .onnx
+  // clang-format on
+  std::vector<stillpoint::Detection> found;
+  detector.detect(cv::Mat(64, 96, CV_8UC3, cv::Scalar(0, 0, 255)), found);
+  EXPECT_EQ(found.size(), 1u);
+}
+#endif
 
 TEST(Documents, OptionsOfNetworksThatAreNotAsUsual) {
   const std::string names_file = (std::filesystem::path(testing::TempDir()) / "stillpoint_my.names").string();

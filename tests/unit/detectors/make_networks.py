@@ -20,12 +20,14 @@ def constant(name, values, dtype=np.float32):
     return numpy_helper.from_array(np.asarray(values, dtype), name)
 
 
-def save(name, nodes, constants, outputs, size=(HEIGHT, WIDTH)):
-    """outputs: {name: shape}"""
+def save(name, nodes, constants, outputs, image=(1, 3, HEIGHT, WIDTH), more_inputs=None, types=None):
+    """outputs: {name: shape}; more_inputs: {name: (type, shape)}; types: of outputs that are not float"""
     graph = helper.make_graph(
         nodes, name,
-        [helper.make_tensor_value_info('image', TensorProto.FLOAT, [1, 3, *size])],
-        [helper.make_tensor_value_info(output, TensorProto.FLOAT, shape) for output, shape in outputs.items()],
+        [helper.make_tensor_value_info('image', TensorProto.FLOAT, image)] +
+        [helper.make_tensor_value_info(other, *what) for other, what in (more_inputs or {}).items()],
+        [helper.make_tensor_value_info(output, (types or {}).get(output, TensorProto.FLOAT), shape)
+         for output, shape in outputs.items()],
         constants)
     model = helper.make_model(graph, opset_imports=[helper.make_opsetid('', 11)], producer_name='stillpoint tests')
     model.ir_version = 6
@@ -54,7 +56,8 @@ def channel_means():
         of_mean[k][0, 4 + k, k] = 1
     nodes, constants = means_to('boxes', base, of_mean)
     save('channel_means', nodes, constants, {'boxes': base.shape})
-    save('any_size', nodes, constants, {'boxes': base.shape}, size=('height', 'width'))
+    save('any_size', nodes, constants, {'boxes': base.shape}, image=(1, 3, 'height', 'width'))
+    save('any_batch', nodes, constants, {'boxes': base.shape}, image=('batch', 3, HEIGHT, WIDTH))
 
 
 def duplicates():
@@ -81,15 +84,15 @@ def label_map():
     """Segmentation with the choice inside: of 21 channels, person (15) is the input's first, background one half."""
     weights, bias = np.zeros((21, 3, 1, 1)), np.full(21, -1.0)
     weights[15, 0], bias[15], bias[0] = 1, 0, 0.5
-    graph = helper.make_graph(
-        [helper.make_node('Conv', ['image', 'weights', 'bias'], ['scores'], kernel_shape=[1, 1]),
-         helper.make_node('ArgMax', ['scores'], ['labels'], axis=1, keepdims=0)],
-        'label_map', [helper.make_tensor_value_info('image', TensorProto.FLOAT, [1, 3, HEIGHT, WIDTH])],
-        [helper.make_tensor_value_info('labels', TensorProto.INT64, [1, HEIGHT, WIDTH])],
-        [constant('weights', weights), constant('bias', bias)])
-    model = helper.make_model(graph, opset_imports=[helper.make_opsetid('', 11)])
-    model.ir_version = 6
-    onnx.save(model, os.path.join(folder, 'label_map.onnx'))
+    nodes = [helper.make_node('Conv', ['image', 'weights', 'bias'], ['scores'], kernel_shape=[1, 1]),
+             helper.make_node('ArgMax', ['scores'], ['labels'], axis=1, keepdims=0)]
+    constants = [constant('weights', weights), constant('bias', bias)]
+    shape = {'labels': [1, HEIGHT, WIDTH]}
+    save('label_map', nodes, constants, shape, types={'labels': TensorProto.INT64})
+    nodes[1].output[0] = 'wide'
+    for name, number in ('label_map_int32', TensorProto.INT32), ('label_map_float16', TensorProto.FLOAT16):
+        save(name, nodes + [helper.make_node('Cast', ['wide'], ['labels'], to=number)], constants, shape,
+             types={'labels': number})
 
 
 def heads():
@@ -102,6 +105,33 @@ def heads():
     nodes, constants = means_to('stride8', large, {0: red})
     more_nodes, more_constants = means_to('stride16', small, {})
     save('heads', nodes + more_nodes, constants + more_constants, {'stride16': small.shape, 'stride8': large.shape})
+
+
+def labelled_boxes():
+    """As RT-DETR with its post-processing: corners are shares times the size that is the second input; the score of
+    query k is the mean of channel k."""
+    shares = np.array([[[0.25, 0.5, 0.5, 1], [0, 0, 0.5, 0.5], [0.5, 0.25, 1, 0.75]]])
+    nodes, constants = means_to('scores', np.zeros((1, 3)), {k: np.eye(3)[k:k + 1] for k in range(3)})
+    save('labelled_boxes',
+         nodes + [helper.make_node('Cast', ['orig_target_sizes'], ['size'], to=TensorProto.FLOAT),
+                  helper.make_node('Concat', ['size', 'size'], ['corner_sizes'], axis=1),
+                  helper.make_node('Mul', ['shares', 'corner_sizes'], ['boxes']),
+                  helper.make_node('Identity', ['classes'], ['labels'])],
+         constants + [constant('shares', shares), constant('classes', [[0, 2, 56]], np.int64)],
+         {'labels': [1, 3], 'boxes': [1, 3, 4], 'scores': [1, 3]},
+         more_inputs={'orig_target_sizes': (TensorProto.INT64, ['batch', 2])}, types={'labels': TensorProto.INT64})
+    save('second_image', [helper.make_node('Add', ['image', 'mask'], ['sum'])], [], {'sum': [1, 3, HEIGHT, WIDTH]},
+         more_inputs={'mask': (TensorProto.FLOAT, [1, 'channels', HEIGHT, WIDTH])})
+
+
+def as_many_as_found():
+    """As networks with suppression inside: row k is there if the mean of channel k is above one half."""
+    rows = np.array([[8, 16, 24, 48, 0.9, 0], [40, 16, 56, 48, 0.8, 1], [72, 16, 88, 48, 0.7, 2]])
+    nodes, constants = means_to('means', np.zeros(3), {k: np.eye(3)[k] for k in range(3)})
+    save('as_many_as_found',
+         nodes + [helper.make_node('Greater', ['means', 'half'], ['there']),
+                  helper.make_node('Compress', ['rows', 'there'], ['found'], axis=1)],
+         constants + [constant('half', [0.5]), constant('rows', rows[np.newaxis])], {'found': [1, 'count', 6]})
 
 
 def what_fails():
@@ -118,4 +148,6 @@ duplicates()
 first_channel()
 label_map()
 heads()
+labelled_boxes()
+as_many_as_found()
 what_fails()
