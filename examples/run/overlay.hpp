@@ -104,8 +104,11 @@ inline void draw_feature(cv::Mat& image, const FeatureRow& row, const stillpoint
   }
 }
 
-/// Solid, or in dashes.
-inline void draw_box(cv::Mat& image, const cv::Rect2f& box, int width_px, bool is_dashed) {
+/// Solid, or in dashes; what lies far outside of the picture is cut off.
+inline void draw_box(cv::Mat& image, const cv::Rect2f& whole, int width_px, bool is_dashed) {
+  constexpr float kMargin_px = 20.0f;
+  const cv::Rect2f box = whole & cv::Rect2f(-kMargin_px, -kMargin_px, static_cast<float>(image.cols) + 2 * kMargin_px,
+                                            static_cast<float>(image.rows) + 2 * kMargin_px);
   if (!is_dashed) return cv::rectangle(image, box, kBoxColour, width_px);
   constexpr float kDash_px = 9.0f, kGap_px = 6.0f;
   const auto side = [&](const cv::Point2f& begin, const cv::Point2f& end) {
