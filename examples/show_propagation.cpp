@@ -30,16 +30,18 @@
 namespace stillpoint_run {
 namespace {
 
-constexpr int kFirst = 24, kStep = 8, kPictures = 5;  // frames at 30 Hz; those before let the filter look back
+constexpr int kFirst = 24, kStep = 6, kPictures = 5;  // frames at 30 Hz; those before let the filter look back
 constexpr int kFeatures = 500;                        // few enough to be told apart in the picture
 constexpr int kWidth_px = 480, kHeight_px = 360;      // of each picture
+constexpr int kGap_px = 6;
 
 /// The sixth field: what the signs mean.
 cv::Mat legend() {
   cv::Mat field(kHeight_px, kWidth_px, CV_8UC3, cv::Scalar::all(70));
-  const auto entry = [&field, line = 0](const std::string& text, auto&& draw) mutable {
+  int line = 0;
+  const auto entry = [&](const std::string& text, auto&& draw) {
     const int y = 50 + 48 * line++;
-    draw(stillpoint::Vector2f(45.0f, static_cast<float>(y)));
+    draw(stillpoint::Vector2f(50.0f, static_cast<float>(y)));
     detail::draw_text(field, text, {90, y + 5});
   };
   const auto box = [&field](bool is_carried) {
@@ -74,9 +76,10 @@ cv::Mat draw() {
   ImageOffsets offsets;
   stillpoint::SyntheticFrame rendered;
   FrameRecord record;
-  cv::Mat mosaic(2 * kHeight_px, 3 * kWidth_px, CV_8UC3);
+  cv::Mat mosaic(2 * kHeight_px + kGap_px, 3 * kWidth_px + 2 * kGap_px, CV_8UC3, cv::Scalar::all(255));
   const auto place = [&mosaic](int index, const cv::Mat& picture) {
-    const cv::Rect field((index % 3) * kWidth_px, (index / 3) * kHeight_px, kWidth_px, kHeight_px);
+    const cv::Rect field((index % 3) * (kWidth_px + kGap_px), (index / 3) * (kHeight_px + kGap_px), kWidth_px,
+                         kHeight_px);
     cv::resize(picture, mosaic(field), field.size(), 0, 0, cv::INTER_AREA);
   };
 
@@ -105,7 +108,7 @@ cv::Mat draw() {
 }  // namespace stillpoint_run
 
 int main(int argument_count, char** arguments) {
-  constexpr int kFailed = 2, kJpegQuality = 80;
+  constexpr int kFailed = 2, kJpegQuality = 72;
   if (argument_count != 2) {
     std::fprintf(stderr, "show_propagation: expected one argument, OUT.jpg\n");
     return kFailed;
