@@ -16,6 +16,7 @@
 
 #include "run/backends.hpp"
 #include "run/csv_files.hpp"
+#include "run/detection_feed.hpp"
 #include "run/figures.hpp"
 #include "run/filters.hpp"
 #include "run/frame_source.hpp"
@@ -50,6 +51,7 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
 void run(const Options& options) {
   cv::setNumThreads(options.threads);
   const std::unique_ptr<FrameSource> source = open_source(options);
+  const std::unique_ptr<DetectionFeed> detector = open_feed(options);
   make_folder(options.out);
   FeaturesFile features(options.out / "features.csv");
   FramesFile frames(options.out / "frames.csv");
@@ -57,7 +59,7 @@ void run(const Options& options) {
 
   const RunRecord record = with_filter(options, source->camera(), [&](auto filter) {
     return with_backend(options, source->camera(), [&](auto&& make_tracker) {
-      return run_frames(options, *source, std::move(filter), make_tracker(), make_tracker(),
+      return run_frames(options, *source, *detector, std::move(filter), make_tracker(), make_tracker(),
                         RunOutput{features, frames, gallery});
     });
   });

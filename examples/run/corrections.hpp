@@ -57,24 +57,28 @@ struct Without {
 
 namespace detail {
 
-/// What another type of a stage does.
-inline void switch_stages(const Without& without, stillpoint::FrameFilter<SwitchedPolicies>& filter) {
-  filter.scorer.is_whitened = !without("whitened");
-  filter.gate.is_calibrated = !without("calibrated");
-  filter.gate.lowest = filter.classifier.options.lowest;
-  filter.classifier.tests_all = !without("all-features");
-  filter.matcher.supports_by_area = !without("area-support");
-  filter.depth_lookup.is_guarded = !without("depth-guard");
-  if (without("area-support")) filter.ego_motion.support.constraints.surface_weight = 0.0;
+/// What another type of a stage does; nothing where the stages can't be told.
+template <class Policies>
+void switch_stages([[maybe_unused]] const Without& without,
+                   [[maybe_unused]] stillpoint::FrameFilter<Policies>& filter) {
+  if constexpr (std::is_base_of_v<SwitchedPolicies, Policies>) {
+    filter.scorer.is_whitened = !without("whitened");
+    filter.gate.is_calibrated = !without("calibrated");
+    filter.gate.lowest = filter.classifier.options.lowest;
+    filter.classifier.tests_all = !without("all-features");
+    filter.matcher.supports_by_area = !without("area-support");
+    filter.depth_lookup.is_guarded = !without("depth-guard");
+    if (without("area-support")) filter.ego_motion.support.constraints.surface_weight = 0.0;
+  }
 }
-inline void switch_stages(const Without&, stillpoint::FrameFilter<stillpoint::DefaultPolicies>&) {}
 
 inline stillpoint::SupportMotion& support_motion(stillpoint::SupportMotion& motion) { return motion; }
 inline stillpoint::SupportMotion& support_motion(SwitchedMotion& motion) { return motion.support; }
 
 }  // namespace detail
 
-/// Sets a filter of `DefaultPolicies` or `SwitchedPolicies` so that it does without the corrections named.
+/// Sets a filter of `DefaultPolicies` or `SwitchedPolicies`, or of what inherits from them, so that it does without the
+/// corrections named.
 template <class Policies>
 void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filter) {
   constexpr float kNever = std::numeric_limits<float>::infinity();

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "detection_feed.hpp"
 #include "frame_record.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/evaluation/error_statistics.hpp"
@@ -28,6 +29,7 @@ struct RunRecord {
   bool has_backend = false, has_stages = false, has_labels = false;
   stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame
   std::optional<stillpoint::Trajectory> ground_truth;
+  std::optional<DetectorRecord> detector;  ///< empty where no network ran
   stillpoint::FilterScore labels;
 };
 
@@ -65,6 +67,7 @@ struct Figures {
   std::size_t features = 0, kept = 0;
   std::vector<std::pair<std::string, std::size_t>> statuses;  ///< those that occurred, in the order of the enum
   std::vector<StageTime> times;
+  std::optional<Spread> detection_ms;  ///< of a network
   std::optional<double> features_per_frame, kept_share, improvement_percent;
   TrajectoryFigures filtered, unfiltered;
 };
@@ -145,6 +148,7 @@ inline Figures evaluate(const RunRecord& run) {
   if (figures.features > 0)
     figures.kept_share = static_cast<double>(figures.kept) / static_cast<double>(figures.features);
   figures.times = detail::stage_times(run);
+  if (run.detector) figures.detection_ms = spread_of(run.detector->times_ms);
   figures.filtered = detail::trajectory_figures(run, run.filtered);
   figures.unfiltered = detail::trajectory_figures(run, run.unfiltered);
   if (figures.filtered.ate_rmse_m && figures.unfiltered.ate_rmse_m)

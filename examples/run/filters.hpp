@@ -15,9 +15,10 @@
 #include "frame_source.hpp"
 #include "options.hpp"
 #include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/regions.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
+#include "stillpoint/prior/async_detector.hpp"
+#include "watched_prior.hpp"
 
 namespace stillpoint_run {
 
@@ -60,7 +61,7 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const s
   filter.gate.options.false_positive_rate = options.false_positive_rate;
   support_motion(filter.ego_motion).options.seed = options.seed;
   filter.classifier.options.seed = options.seed;
-  if constexpr (std::is_same_v<Policies, SwitchedPolicies>) {
+  if constexpr (std::is_base_of_v<SwitchedPolicies, Policies>) {
     filter.ego_motion.kind = motion_kind(options.ego_motion);
     filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;
   }
@@ -79,27 +80,22 @@ decltype(auto) with_filter(const Options& options, const stillpoint::Camera& cam
   if (options.prior == "labels") return use(examples::OracleFilter{});
   if (options.policies == "default") {
     if (options.ego_motion != "default" || options.without.needs_other_stages())
-      return use(detail::default_filter<SwitchedPolicies>(options, camera));
-    return use(detail::default_filter<DefaultPolicies>(options, camera));
+      return use(detail::default_filter<Watched<SwitchedPolicies>>(options, camera));
+    return use(detail::default_filter<Watched<DefaultPolicies>>(options, camera));
   }
-  if (options.ego_motion == "rigid") return use(detail::paper_filter<PaperRigidPolicies>(options, camera));
-  return use(detail::paper_filter<PaperPolicies>(options, camera));
+  if (options.ego_motion == "rigid") return use(detail::paper_filter<Watched<PaperRigidPolicies>>(options, camera));
+  return use(detail::paper_filter<Watched<PaperPolicies>>(options, camera));
 }
 
 /// Tells a filter what is known of the coming frame before it looks.
 /// @param answer  of the detector; one that is there and empty says that it saw nothing
 template <class Policies>
 void prepare(stillpoint::FrameFilter<Policies>& filter, const SourceFrame& frame,
-             const std::optional<std::vector<stillpoint::Detection>>& answer) {
-  if constexpr (std::is_same_v<typename Policies::Prior, stillpoint::PropagatedPrior>) {
-    if (answer) filter.prior.detected(frame.timestamp_s, *answer);
-  } else {
-    filter.prior.detections.clear();  // it holds them until they are written again
-    if (answer) filter.prior.detections = *answer;
-  }
+             const std::optional<stillpoint::DetectorAnswer>& answer) {
+  filter.prior.prepare(frame.timestamp_s, answer ? &*answer : nullptr);
 }
 inline void prepare(examples::OracleFilter& filter, const SourceFrame& frame,
-                    const std::optional<std::vector<stillpoint::Detection>>&) {
+                    const std::optional<stillpoint::DetectorAnswer>&) {
   filter.labels = frame.labels;
 }
 

@@ -8,7 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <string>
 #include <vector>
 
 #include "../backends/oracle_filter.hpp"
@@ -19,7 +19,7 @@
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/opencv.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
+#include "watched_prior.hpp"
 
 namespace stillpoint_run {
 
@@ -44,22 +44,20 @@ struct FrameSummary {
   stillpoint::DropCount moving, background;  ///< of this frame alone; empty where there are no labels
 };
 
+/// A region of the prior as the filter had it.
+struct RegionRow {
+  UsedRegion region;
+  std::string class_name;
+};
+
 /// What the filter said of the current frame, refilled each time.
 struct FrameRecord {
   FrameSummary summary;
+  std::vector<RegionRow> regions;
   std::vector<FeatureRow> rows;
   std::vector<stillpoint::Vector2f> pixels;
   std::vector<std::uint8_t> keep;
 };
-
-/// The frame's boxes as the prior takes them: with what is known of their classes.
-inline std::vector<stillpoint::Detection> detections_of(const SourceFrame& frame,
-                                                        const stillpoint::MobilityTable& mobility) {
-  std::vector<stillpoint::Detection> detections;
-  for (const stillpoint::DetectedBox& found : frame.boxes)
-    detections.push_back({found.box, mobility[found.class_name], found.confidence});
-  return detections;
-}
 
 namespace detail {
 
@@ -69,22 +67,29 @@ inline stillpoint::Mobility mobility_of(const stillpoint::Membership& feature) {
   return feature.in_fixed ? stillpoint::Mobility::fixed : stillpoint::Mobility::unknown;
 }
 
-/// The part that every filter's record has: pixels, flags, regions.
+/// The part that every filter's record has: pixels and flags.
 inline void begin_record(const std::vector<cv::KeyPoint>& keypoints, stillpoint::span<const std::uint8_t> keep,
-                         const std::vector<stillpoint::Detection>& detections, FrameRecord& record) {
+                         FrameRecord& record) {
   record.keep.assign(keep.begin(), keep.end());
   record.pixels.clear();
   for (const cv::KeyPoint& keypoint : keypoints) record.pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
-  stillpoint::Regions regions;
-  regions.detections = detections;
-  regions.locate(record.pixels);
+  record.regions.clear();
   record.rows.clear();
-  for (std::size_t i = 0; i < keypoints.size(); ++i)
-    record.rows.push_back(
-        {record.pixels[i], {}, "", stillpoint::FeatureScore{}.value, 0.0, mobility_of(regions.of_feature[i])});
+  for (const stillpoint::Vector2f& pixel : record.pixels)
+    record.rows.push_back({pixel, {}, "", stillpoint::FeatureScore{}.value, 0.0, stillpoint::Mobility::unknown});
   record.summary.features = keypoints.size();
   record.summary.kept = 0;
   for (const std::uint8_t flag : keep) record.summary.kept += flag != 0 ? 1 : 0;
+}
+
+/// In which regions each feature is, as the filter asked: where a thing's depth is known, by depth, too.
+inline void locate(FrameRecord& record) {
+  stillpoint::Regions regions;
+  for (const RegionRow& row : record.regions) regions.detections.push_back(row.region.detection);
+  std::vector<double> depths_m;
+  for (const FeatureRow& row : record.rows) depths_m.push_back(row.depth_m);
+  regions.locate(record.pixels, depths_m);
+  for (std::size_t i = 0; i < record.rows.size(); ++i) record.rows[i].prior = mobility_of(regions.of_feature[i]);
 }
 
 template <class Lookup>
@@ -96,11 +101,11 @@ double depth_at(const stillpoint::FrameView& frame, const Lookup& lookup, const 
 }  // namespace detail
 
 /// Writes down what `FrameFilter` decided. A frame that was not judged gets its depths looked up here.
-template <class Filter>
+/// @param class_name  (int class_index) → text
+template <class Filter, class ClassName>
 void write_down(const stillpoint::FrameView& frame, const Filter& filter, const std::vector<cv::KeyPoint>& keypoints,
-                const stillpoint::FrameResult& result, const std::vector<stillpoint::Detection>& detections,
-                FrameRecord& record) {
-  detail::begin_record(keypoints, result.keep(), detections, record);
+                const stillpoint::FrameResult& result, ClassName&& class_name, FrameRecord& record) {
+  detail::begin_record(keypoints, result.keep(), record);
   const bool judged = stillpoint::judged(result.status());
   for (std::size_t i = 0; i < record.rows.size(); ++i) {
     FeatureRow& row = record.rows[i];
@@ -109,6 +114,9 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
     row.score = result.score(i).value;
     row.depth_m = judged ? result.depth_m(i) : detail::depth_at(frame, filter.depth_lookup, row.pixel);
   }
+  for (const UsedRegion& region : filter.prior.used())
+    record.regions.push_back({region, class_name(region.detection.class_index)});
+  detail::locate(record);
   FrameSummary& summary = record.summary;
   summary.status = result.status();
   summary.motion = result.motion();
@@ -116,11 +124,12 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   summary.keep_floor_kept = result.keep_floor_kept();
 }
 
-/// Writes down what the oracle read in the labels: it has no score, no motion and no stages.
-inline void write_down(const stillpoint::FrameView& frame, const examples::OracleFilter&,
-                       const std::vector<cv::KeyPoint>& keypoints, const examples::OracleFilter::Result& result,
-                       const std::vector<stillpoint::Detection>& detections, FrameRecord& record) {
-  detail::begin_record(keypoints, result.keep(), detections, record);
+/// Writes down what the oracle read in the labels: it has no score, no motion, no regions and no stages.
+template <class ClassName>
+void write_down(const stillpoint::FrameView& frame, const examples::OracleFilter&,
+                const std::vector<cv::KeyPoint>& keypoints, const examples::OracleFilter::Result& result, ClassName&&,
+                FrameRecord& record) {
+  detail::begin_record(keypoints, result.keep(), record);
   for (std::size_t i = 0; i < record.rows.size(); ++i) {
     FeatureRow& row = record.rows[i];
     row.label.keep = record.keep[i] != 0;

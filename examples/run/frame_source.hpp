@@ -100,6 +100,23 @@ class TumSource : public FrameSource {
   std::vector<stillpoint::FrameBoxes> boxes_;
 };
 
+/// A rendered frame, with the boxes of a perfect detector if wanted.
+inline SourceFrame source_frame(const stillpoint::SyntheticFrame& rendered, bool wants_boxes) {
+  SourceFrame frame;
+  frame.timestamp_s = rendered.timestamp_s;
+  frame.gray = stillpoint::as_mat(rendered.gray.view()).clone();
+  frame.colour = stillpoint::as_mat(rendered.colour.view()).clone();
+  frame.depth = stillpoint::as_mat(rendered.depth.view()).clone();
+  frame.depth_factor = rendered.depth_factor;
+  frame.labels = stillpoint::as_mat(rendered.labels.view()).clone();
+  if (wants_boxes)
+    for (const stillpoint::synthetic::TruthBox& box : rendered.boxes)
+      frame.boxes.push_back({box.class_name, 1.0f,
+                             stillpoint::Box{static_cast<float>(box.x), static_cast<float>(box.y),
+                                             static_cast<float>(box.width), static_cast<float>(box.height)}});
+  return frame;
+}
+
 /// The synthetic scene of the library, with its exact truth.
 class DemoSource : public FrameSource {
  public:
@@ -114,19 +131,7 @@ class DemoSource : public FrameSource {
 
   SourceFrame load(std::size_t index) override {
     sequence_.render(static_cast<int>(index), rendered_);
-    SourceFrame frame;
-    frame.timestamp_s = rendered_.timestamp_s;
-    frame.gray = stillpoint::as_mat(rendered_.gray.view()).clone();
-    frame.colour = stillpoint::as_mat(rendered_.colour.view()).clone();
-    frame.depth = stillpoint::as_mat(rendered_.depth.view()).clone();
-    frame.depth_factor = rendered_.depth_factor;
-    frame.labels = stillpoint::as_mat(rendered_.labels.view()).clone();
-    if (wants_boxes_)
-      for (const stillpoint::synthetic::TruthBox& box : rendered_.boxes)
-        frame.boxes.push_back({box.class_name, 1.0f,
-                               stillpoint::Box{static_cast<float>(box.x), static_cast<float>(box.y),
-                                               static_cast<float>(box.width), static_cast<float>(box.height)}});
-    return frame;
+    return source_frame(rendered_, wants_boxes_);
   }
 
  private:

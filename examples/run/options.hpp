@@ -12,12 +12,14 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
 #include "corrections.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/detectors/layout.hpp"
 #include "stillpoint/version.hpp"
 
 namespace stillpoint_run {
@@ -33,10 +35,13 @@ struct Options {
   std::string ego_motion = "default";
   std::vector<std::string> as_printed;  ///< of eq3, eq8, unit-t
   double false_positive_rate = stillpoint::TailGate::Options{}.false_positive_rate;
-  Without without;  ///< corrections that are switched off
-  std::string prior = "none";
-  int detect_every = 1;     ///< frames from one answer of the detector to the next
-  double drop_boxes = 0.0;  ///< share of the boxes that it misses
+  Without without;             ///< corrections that are switched off
+  std::string prior = "none";  ///< none, boxes, labels, or the file of a network
+  std::string detector_layout = "automatic";
+  std::string classes;          ///< a list of ClassList or a file; empty: by the network
+  int detect_every = 1;         ///< frames from one that the detector is offered to the next
+  bool is_synchronous = false;  ///< the network is waited for
+  double drop_boxes = 0.0;      ///< share of the boxes that is left out
   std::string backend = "odometry";
   int features = 1000;
   int start = 0;
@@ -44,6 +49,10 @@ struct Options {
   std::uint64_t seed = stillpoint::Random::kDefaultSeed;
   int threads = 1;
   bool quiet = false;
+
+  bool has_network() const { return prior != "none" && prior != "boxes" && prior != "labels"; }
+  /// As reports have it: a network by the name of its file.
+  std::string prior_name() const { return has_network() ? std::filesystem::path(prior).filename().string() : prior; }
 
   bool prints_error(std::string_view name) const {
     for (const std::string& printed : as_printed)
@@ -128,6 +137,32 @@ inline std::string correction_help() {
   return help;
 }
 
+/// A word that names a prior, or a file that is there; what is in it shows when it is read.
+inline CLI::Validator prior() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::error_code ignored;
+        for (const char* word : {"none", "boxes", "labels"})
+          if (text == word) return std::string();
+        if (std::filesystem::exists(text, ignored)) return std::string();
+        return "found '" + text + "', and no such file; expected one of none, boxes, labels, or the file of a network";
+      },
+      "");
+}
+
+inline CLI::Validator layout() {
+  return CLI::Validator(
+      [](std::string& text) {
+        try {
+          stillpoint::layout_from_name(text);
+          return std::string();
+        } catch (const stillpoint::Error&) {
+          return "found '" + text + "', expected automatic or one of " + stillpoint::layout_names();
+        }
+      },
+      "");
+}
+
 inline CLI::Validator not_empty() {
   return CLI::Validator(
       [](std::string& text) { return text.empty() ? std::string("found nothing, expected a path") : std::string(); },
@@ -162,16 +197,20 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
       if (options.prints_error(name))
         throw stillpoint::Error("--paper-as-printed: found " + std::string(name) +
                                 " with --ego-motion rigid, expected --ego-motion epipolar, whose printed error it is");
-  if (options.prior != "boxes")
-    for (const char* name : {"--detect-every", "--drop-boxes"})
-      if (given(name)) throw stillpoint::Error(std::string(name) + ": found without boxes, expected --prior boxes");
+  if (options.prior != "boxes" && given("--drop-boxes"))
+    throw stillpoint::Error("--drop-boxes: found without boxes, expected --prior boxes");
+  if (options.prior != "boxes" && !options.has_network() && given("--detect-every"))
+    throw stillpoint::Error("--detect-every: found without a detector, expected --prior boxes or --prior MODEL");
+  if (!options.has_network())
+    for (const char* name : {"--detector-layout", "--classes", "--sync"})
+      if (given(name)) throw stillpoint::Error(std::string(name) + ": found without a network, expected --prior MODEL");
   if (options.prior == "labels")
     for (const char* name :
          {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise", "--false-positive-rate", "--without"})
       if (given(name))
         throw stillpoint::Error(std::string(name) +
                                 ": found with --prior labels, which looks the answer up and filters nothing; expected "
-                                "--prior none or boxes");
+                                "--prior none, boxes or MODEL");
 }
 
 }  // namespace detail
@@ -217,11 +256,29 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
       ->check(detail::one_of(detail::correction_names(), detail::correction_list()))
       ->default_str("");
   app.footer(detail::correction_help());
-  const CLI::Option* prior = detail::add_choice(
-      app, "--prior", options.prior, {"none", "boxes", "labels"},
-      "where something may move; labels is an oracle that drops what the labels call a mover, a yardstick. The demo of "
-      "the paper's method takes boxes unless told otherwise");
-  add_number("--detect-every", options.detect_every, 1, most, "boxes of every N-th frame alone are handed over");
+  const CLI::Option* prior =
+      app.add_option(
+             "--prior", options.prior,
+             "where something may move: boxes of the sequence, or what a network finds (MODEL: .onnx, .cfg, .pb "
+             "...). labels is an oracle that drops what the labels call a mover, a yardstick. The demo of the "
+             "paper's method takes boxes unless told otherwise")
+          ->type_name("none|boxes|labels|MODEL")
+          ->check(detail::prior());
+  app.add_option(
+         "--detector-layout", options.detector_layout,
+         "how the network writes down what it has found, if that can't be told from its outputs: yolov8, ssd ...")
+      ->type_name("NAME")
+      ->check(detail::layout());
+  app.add_option("--classes", options.classes,
+                 "the network's classes: a file with one name a line, or coco, coco91, voc, voc21, cityscapes, person")
+      ->type_name("FILE")
+      ->check(detail::not_empty())
+      ->default_str("by the network");
+  add_number("--detect-every", options.detect_every, 1, most,
+             "the detector looks at every N-th frame; boxes of the others are not handed over");
+  app.add_flag("--sync", options.is_synchronous,
+               "each frame waits for the network: the same bytes in every run. Without it the network has a thread of "
+               "its own, and frames come when they are due");
   app.add_option("--drop-boxes", options.drop_boxes, "share of the boxes that is left out at random, by --seed")
       ->type_name("SHARE")
       ->check(detail::number(0.0, 1.0, "0 to 1"));
@@ -271,7 +328,14 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
           {"--false-positive-rate", is_paper ? "n/a" : shortest(options.false_positive_rate)},
           {"--without", joined(options.without.names)},
           {"--prior", options.prior},
+          {"--detector-layout", options.has_network() ? options.detector_layout : "n/a"},
+          {"--classes", !options.has_network()    ? "n/a"
+                        : options.classes.empty() ? "by the network"
+                                                  : options.classes},
           {"--detect-every", std::to_string(options.detect_every)},
+          {"--sync", !options.has_network()   ? "n/a"
+                     : options.is_synchronous ? "yes"
+                                              : "no"},
           {"--drop-boxes", shortest(options.drop_boxes)},
           {"--backend", options.backend},
           {"--features", std::to_string(options.features)},

@@ -104,6 +104,45 @@ inline void draw_feature(cv::Mat& image, const FeatureRow& row, const stillpoint
   }
 }
 
+/// Solid, or in dashes; what lies far outside of the picture is cut off.
+inline void draw_box(cv::Mat& image, const cv::Rect2f& whole, int width_px, bool is_dashed) {
+  constexpr float kMargin_px = 20.0f;
+  const cv::Rect2f box = whole & cv::Rect2f(-kMargin_px, -kMargin_px, static_cast<float>(image.cols) + 2 * kMargin_px,
+                                            static_cast<float>(image.rows) + 2 * kMargin_px);
+  if (!is_dashed) return cv::rectangle(image, box, kBoxColour, width_px);
+  constexpr float kDash_px = 9.0f, kGap_px = 6.0f;
+  const auto side = [&](const cv::Point2f& begin, const cv::Point2f& end) {
+    const float length_px = std::hypot(end.x - begin.x, end.y - begin.y);
+    const cv::Point2f step = (end - begin) / length_px;
+    for (float at = 0; at < length_px; at += kDash_px + kGap_px)
+      cv::line(image, begin + at * step, begin + std::min(at + kDash_px, length_px) * step, kBoxColour, width_px);
+  };
+  const cv::Point2f left_top = box.tl(), right_bottom = box.br();
+  const cv::Point2f right_top(right_bottom.x, left_top.y), left_bottom(left_top.x, right_bottom.y);
+  side(left_top, right_top);
+  side(right_top, right_bottom);
+  side(left_bottom, right_bottom);
+  side(left_top, left_bottom);
+}
+
+/// What of a box is the thing itself, as a tint.
+inline void tint_mask(cv::Mat& image, const stillpoint::Detection& detection) {
+  if (!detection.mask) return;
+  constexpr double kOpacity = 0.35;
+  const stillpoint::Box& box = detection.box;
+  const int left = std::max(static_cast<int>(std::ceil(box.x)), 0),
+            top = std::max(static_cast<int>(std::ceil(box.y)), 0);
+  for (int v = top; v < image.rows && static_cast<float>(v) <= box.y + box.height; ++v) {
+    for (int u = left; u < image.cols && static_cast<float>(u) <= box.x + box.width; ++u) {
+      const float x = (static_cast<float>(u) - box.x) / box.width, y = (static_cast<float>(v) - box.y) / box.height;
+      if (!detection.mask->at(x, y)) continue;
+      auto& pixel = image.at<cv::Vec3b>(v, u);
+      for (int c = 0; c < 3; ++c)
+        pixel[c] = cv::saturate_cast<std::uint8_t>((1 - kOpacity) * pixel[c] + kOpacity * kBoxColour[c]);
+    }
+  }
+}
+
 inline void draw_text(cv::Mat& image, const std::string& text, const cv::Point& at) {
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, kInk, 4, cv::LINE_AA);
   cv::putText(image, text, at, cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar::all(255), 1, cv::LINE_AA);
@@ -111,17 +150,20 @@ inline void draw_text(cv::Mat& image, const std::string& text, const cv::Point& 
 
 }  // namespace detail
 
-/// Draws the boxes of the prior (those of moving classes thicker), each feature by its verdict, its offset three times
-/// as long as it is, and the frame's status.
-inline cv::Mat draw_overlay(const SourceFrame& frame, const std::vector<stillpoint::Detection>& detections,
-                            const FrameRecord& record, const std::vector<stillpoint::Vector2f>& offsets_px) {
+/// Draws the regions that the filter had (those of moving classes thicker, carried ones dashed, masks tinted), each
+/// feature by its verdict, its offset three times as long as it is, and the frame's status.
+inline cv::Mat draw_overlay(const SourceFrame& frame, const FrameRecord& record,
+                            const std::vector<stillpoint::Vector2f>& offsets_px) {
   cv::Mat image = frame.colour.clone();
-  for (std::size_t i = 0; i < detections.size(); ++i) {
-    const stillpoint::Box& found = detections[i].box;
+  for (const auto& [region, class_name] : record.regions) detail::tint_mask(image, region.detection);
+  for (const auto& [region, class_name] : record.regions) {
+    const stillpoint::Box& found = region.detection.box;
     const cv::Rect2f box(found.x, found.y, found.width, found.height);
-    cv::rectangle(image, box, detail::kBoxColour, detections[i].mobility == stillpoint::Mobility::dynamic ? 2 : 1);
-    detail::draw_text(image, frame.boxes[i].class_name + ": " + to_string(detections[i].mobility),
-                      cv::Point(box.tl()) + cv::Point(5, 17));
+    const stillpoint::Mobility mobility = region.detection.mobility;
+    detail::draw_box(image, box, mobility == stillpoint::Mobility::dynamic ? 2 : 1, region.is_carried);
+    // Of a box that reaches over the picture's border the name is drawn inside.
+    detail::draw_text(image, (class_name.empty() ? "" : class_name + ": ") + to_string(mobility),
+                      cv::Point(cv::Point2f(std::max(box.x, 0.0f), std::max(box.y, 0.0f))) + cv::Point(5, 17));
   }
   for (std::size_t i = 0; i < record.rows.size(); ++i) detail::draw_feature(image, record.rows[i], offsets_px[i]);
   const FrameSummary& summary = record.summary;
@@ -138,13 +180,11 @@ class Gallery {
   explicit Gallery(std::size_t frame_count) : frame_count_(frame_count) {}
 
   /// Call it for each frame, in their order.
-  /// @param detections  of the frame's boxes, in their order.
-  void show(const SourceFrame& frame, const std::vector<stillpoint::Detection>& detections, const FrameRecord& record,
-            const stillpoint::Camera& camera) {
+  void show(const SourceFrame& frame, const FrameRecord& record, const stillpoint::Camera& camera) {
     constexpr int kJpegQuality = 82;
     if (is_chosen(next_++)) {
       Overlay overlay;
-      cv::imencode(".jpg", draw_overlay(frame, detections, record, offsets_.of(frame, record, camera)), overlay.jpeg,
+      cv::imencode(".jpg", draw_overlay(frame, record, offsets_.of(frame, record, camera)), overlay.jpeg,
                    {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
       const FrameSummary& summary = record.summary;
       overlay.caption = "Frame " + std::to_string(next_) + ", " + stillpoint::format_fixed(summary.timestamp_s, 3) +

@@ -62,7 +62,8 @@ inline std::string frames_section(const std::vector<Overlay>& overlays) {
       entry("<path class=\"shape dynamic\" d=\"M10 2l10 10m0-10L10 12\"/>", "dynamic: dropped") +
       entry("<path class=\"shape unknown\" d=\"M11 3h8v8h-8Z\"/>", "unknown, kept") +
       entry("<path class=\"shape unknown\" d=\"M11 3h8v8h-8ZM7 7h16\"/>", "unknown, dropped") +
-      entry("<path class=\"shape box\" d=\"M3 1h24v12H3Z\"/>", "box of the prior") +
+      entry("<path class=\"shape box\" d=\"M3 1h24v12H3Z\"/>", "box of the prior, seen in this frame") +
+      entry("<path class=\"shape box\" stroke-dasharray=\"5 3\" d=\"M3 1h24v12H3Z\"/>", "carried from an earlier one") +
       entry("<path class=\"shape kept\" d=\"M3 11L27 3\"/>", "offset from where it would be if it stood, × 3") +
       "</ul><div class=\"frames\">\n";
   for (const Overlay& overlay : overlays)

@@ -41,6 +41,27 @@ inline nlohmann::ordered_json labels_json(const RunRecord& run) {
           {"parked_dropped", or_null(score.parked_dropped())}};
 }
 
+/// Frames: offered = skipped + replaced + detected + failed.
+inline nlohmann::ordered_json detector_json(const RunRecord& run, const Figures& figures) {
+  if (!run.detector) return nullptr;
+  const DetectorRecord& detector = *run.detector;
+  const auto time = [&figures](double Spread::*member) {
+    return or_null(figures.detection_ms ? std::optional((*figures.detection_ms).*member) : std::nullopt);
+  };
+  return {{"layout", to_string(detector.layout)},
+          {"input_width", detector.input.width},
+          {"input_height", detector.input.height},
+          {"frames",
+           {{"offered", detector.counters.offered},
+            {"skipped", detector.counters.skipped},
+            {"replaced", detector.counters.replaced},
+            {"detected", detector.counters.detected},
+            {"failed", detector.counters.failed}}},
+          {"timing_ms", {{"median", time(&Spread::median)}, {"p95", time(&Spread::p95)}}},
+          {"last_error", detector.last_error.empty() ? nlohmann::ordered_json(nullptr)
+                                                     : nlohmann::ordered_json(detector.last_error)}};
+}
+
 }  // namespace detail
 
 /// @return text with a line's end. Key by key: shares from 0 to 1, units in the keys' names, labels' `moving` and
@@ -60,7 +81,8 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
       {"version", STILLPOINT_VERSION},
       {"sequence", run.sequence},
       {"policies", options.policies},
-      {"prior", options.prior},
+      {"prior", options.prior_name()},
+      {"detector", detail::detector_json(run, figures)},
       {"frames", run.frames.size()},
       {"features_per_frame", detail::or_null(figures.features_per_frame)},
       {"kept_share", detail::or_null(figures.kept_share)},

@@ -102,6 +102,25 @@ inline std::string time_table(const Figures& figures) {
   return table.html();
 }
 
+inline std::string detector_table(const Options& options, const DetectorRecord& detector, const Figures& figures) {
+  Table table("Detector", {"", "value"}, false);
+  const stillpoint::DetectorCounters& frames = detector.counters;
+  table.row("network", {options.prior_name()});
+  table.row("layout", {std::string(to_string(detector.layout))});
+  table.row("input",
+            {std::to_string(detector.input.width) + " x " + std::to_string(detector.input.height) + " pixels"});
+  table.row("frames offered", {std::to_string(frames.offered)});
+  table.row("not looked at, by --detect-every", {std::to_string(frames.skipped)});
+  table.row("replaced by a newer one", {std::to_string(frames.replaced)});
+  table.row("answered", {std::to_string(frames.detected)});
+  table.row("failed", {std::to_string(frames.failed)});
+  if (figures.detection_ms)
+    table.row("time of an answer", {stillpoint::format_fixed(figures.detection_ms->median, 1) + " ms; 95 % below " +
+                                    stillpoint::format_fixed(figures.detection_ms->p95, 1) + " ms"});
+  if (!detector.last_error.empty()) table.row("last error", {detector.last_error});
+  return table.html();
+}
+
 inline std::string status_table(const Figures& figures) {
   Table table("Status of the frames", {"status", "frames"});
   for (const auto& [status, frames] : figures.statuses) table.row(status, {std::to_string(frames)});
@@ -121,6 +140,7 @@ inline std::string report_tables(const Options& options, const RunRecord& run, c
   std::string html;
   if (run.has_backend) html += detail::trajectory_table(figures);
   if (run.has_labels) html += detail::label_table(run);
+  if (run.detector) html += detail::detector_table(options, *run.detector, figures);
   return html + detail::time_table(figures) + detail::status_table(figures) + detail::settings_table(options);
 }
 

@@ -9,13 +9,13 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "backends.hpp"
 #include "csv_files.hpp"
 #include "detection_feed.hpp"
 #include "figures.hpp"
 #include "filters.hpp"
+#include "frame_clock.hpp"
 #include "frame_record.hpp"
 #include "frame_source.hpp"
 #include "options.hpp"
@@ -74,14 +74,15 @@ inline std::size_t frame_count(const Options& options, const FrameSource& source
   return std::min(source.size() - static_cast<std::size_t>(options.start), static_cast<std::size_t>(options.frames));
 }
 
-/// Runs the frames that the options ask for.
+/// Runs the frames that the options ask for; beside a network in a thread of its own no faster than they were taken.
 /// @throws stillpoint::Error where a frame can't be read or a row not written.
 template <class Filter, class Backend>
-RunRecord run_frames(const Options& options, FrameSource& source, Filter a_filter, Backend behind_filter,
-                     Backend unfiltered_backend, const RunOutput& output) {
+RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed& detector, Filter a_filter,
+                     Backend behind_filter, Backend unfiltered_backend, const RunOutput& output) {
   stillpoint::FilteredTracker filtered(std::move(a_filter), std::move(behind_filter));
   stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));
-  DetectionFeed detector(options);
+  const bool is_paced = options.has_network() && !options.is_synchronous;
+  FrameClock clock;
   const std::size_t count = frame_count(options, source), first = static_cast<std::size_t>(options.start);
   Progress progress(count, options.quiet);
 
@@ -91,17 +92,17 @@ RunRecord run_frames(const Options& options, FrameSource& source, Filter a_filte
   run.has_backend = options.backend != "none";
   run.has_labels = source.has_labels();
   run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
+  const auto class_name = [&detector](int index) { return detector.class_name(index); };
   FrameRecord record;
   for (std::size_t i = first; i < first + count; ++i) {
     const SourceFrame frame = source.load(i);
     const stillpoint::FrameView view = frame.view();
-    const std::optional<std::vector<stillpoint::Detection>> answer = detector.next(frame);
-    const std::vector<stillpoint::Detection> detections = answer.value_or(std::vector<stillpoint::Detection>());
-    prepare(filtered.filter, frame, answer);
+    if (is_paced) clock.wait_for(frame.timestamp_s);
+    prepare(filtered.filter, frame, detector.next(frame));
     record.summary = FrameSummary{};
     record.summary.timestamp_s = frame.timestamp_s;
     const auto pose = filtered.track(view, [&](const std::vector<cv::KeyPoint>& keypoints, const auto& result) {
-      write_down(view, filtered.filter, keypoints, result, detections, record);
+      write_down(view, filtered.filter, keypoints, result, class_name, record);
     });
     record.summary.extract_ms = filtered.backend.extract_ms;
     record.summary.track_ms = filtered.backend.track_ms;
@@ -111,10 +112,11 @@ RunRecord run_frames(const Options& options, FrameSource& source, Filter a_filte
 
     output.features.write(record);
     output.frames.write(record.summary);
-    output.gallery.show(frame, detections, record, source.camera());
+    output.gallery.show(frame, record, source.camera());
     run.frames.push_back(record.summary);
     progress.frame_done();
   }
+  run.detector = detector.finish();
   detail::begin_at_identity(run.filtered);
   detail::begin_at_identity(run.unfiltered);
   return run;

@@ -58,6 +58,22 @@ inline std::string label_words(const RunRecord& run) {
   return words + '.';
 }
 
+inline std::string detector_words(const Options& options, const DetectorRecord& detector, const Figures& figures) {
+  const stillpoint::DetectorCounters& frames = detector.counters;
+  std::string words = options.prior_name() + " (" + std::string(to_string(detector.layout)) + ", " +
+                      std::to_string(detector.input.width) + " x " + std::to_string(detector.input.height) +
+                      ") answered on " + std::to_string(frames.detected) + " of " +
+                      count_words(frames.offered, "frame");
+  if (figures.detection_ms)
+    words += ", in " + stillpoint::format_fixed(figures.detection_ms->median, 0) + " ms (95 % below " +
+             stillpoint::format_fixed(figures.detection_ms->p95, 0) + " ms)";
+  if (frames.replaced > 0)
+    words += "; " + count_words(frames.replaced, "frame") + " gave way to a newer one before it was free";
+  if (frames.failed > 0)
+    words += "; it failed on " + count_words(frames.failed, "frame") + ", at last with: " + detector.last_error;
+  return words + '.';
+}
+
 inline std::size_t unjudged_frames(const RunRecord& run) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < run.frames.size(); ++i)
@@ -85,10 +101,11 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
   result.push_back(detail::trajectory_words(run, figures));
   const std::string labels = detail::label_words(run);
   if (!labels.empty()) result.push_back(labels);
+  if (run.detector) result.push_back(detail::detector_words(options, *run.detector, figures));
   if (options.policies == "paper" && options.prior == "none")
     result.push_back(
-        "The paper's method tests features inside boxes of moving classes only: without --prior boxes it drops "
-        "nothing.");
+        "The paper's method tests features inside boxes of moving classes only: without --prior boxes or "
+        "a network it drops nothing.");
   if (const std::size_t unjudged = detail::unjudged_frames(run); unjudged > 0)
     result.push_back(count_words(unjudged, "frame") + " after the first could not be judged, and all features of " +
                      (unjudged == 1 ? "it" : "them") + " were kept.");
