@@ -8,7 +8,6 @@
 #include <string>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "../backends/oracle_filter.hpp"
 #include "corrections.hpp"

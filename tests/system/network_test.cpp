@@ -124,7 +124,8 @@ TEST_F(NetworkPrior, ThatSeesNothingChangesNothing) {
 
 TEST_F(NetworkPrior, LayoutMayBeSaid) {
   EXPECT_EQ(detector(run("out", prior(people) + "--detector-layout darknet --sync"))["layout"], "darknet");
-  expect_error(arguments("out", prior(people) + "--detector-layout ssd"), {"people.cfg", "layout ssd", "expected 1x1xKx7"});
+  expect_error(arguments("out", prior(people) + "--detector-layout ssd"),
+               {"people.cfg", "layout ssd", "expected 1x1xKx7"});
   expect_error(arguments("out", prior(people) + "--detector-layout yolov99"),
                {"--detector-layout", "found 'yolov99'", "expected automatic or one of", "yolox", "label-map"});
 }
