@@ -45,7 +45,7 @@ class RgbdOdometry {
     double reprojection_px = 3.0;      ///< inlier limit of RANSAC
     std::size_t fewest_features = 12;  ///< fewer that fit are no pose
     double fewest_share = 0.3;         ///< of the features that were found again: fewer that fit are no pose
-    double expected_share = 0.5;       ///< of what fits the best pose: one near the expected pose is kept down to it
+    double expected_share = 0.3;       ///< of what fits the best pose: one near the expected pose is kept down to it
     double keyframe_share = 0.6;       ///< a new keyframe where the last explains less of the features with depth
     double keyframe_motion = 0.15;     ///< or the camera has moved this far: metres plus radians
   };
