@@ -80,6 +80,7 @@ template <class Filter, class Backend>
 RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed& detector, Filter a_filter,
                      Backend behind_filter, Backend unfiltered_backend, const RunOutput& output) {
   stillpoint::FilteredTracker filtered(std::move(a_filter), std::move(behind_filter));
+  filtered.tells_filter = false;  // these backends have no map to know better by
   stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));
   const bool is_paced = options.has_network() && !options.is_synchronous;
   FrameClock clock;

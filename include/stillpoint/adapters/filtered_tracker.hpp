@@ -115,6 +115,9 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
 
   Filter filter;    ///< which features stand still?
   Backend backend;  ///< where is the camera?
+  /// Is the filter told the backend's poses? They predict its next motion, better than its own do where the backend is
+  /// a full SLAM. An odometry that is led astray leads the filter astray as well, which then keeps what led it.
+  bool tells_filter = true;
 
   /// Tracks one frame. Frames come in the order of time.
   /// @return world_from_camera, or nothing where the backend has no pose for this frame.
@@ -142,7 +145,9 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
 
  private:
   void feed_back(const Pose& world_from_camera) {
-    if constexpr (has_feedback<Filter>::value) filter.feedback(world_from_camera);
+    if constexpr (has_feedback<Filter>::value) {
+      if (tells_filter) filter.feedback(world_from_camera);
+    }
     if constexpr (has_feedback<Backend>::value) backend.feedback(world_from_camera);
   }
 };

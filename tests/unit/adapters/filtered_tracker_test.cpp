@@ -138,6 +138,14 @@ TEST(FilteredTracker, ReturnsThePoseAndFeedsItBackToBothSides) {
   EXPECT_EQ(tracker.backend.feedback_x_m, std::vector<double>{1.0});
 }
 
+TEST(FilteredTracker, TellsTheFilterNothingThatIsNotToBelieveTheBackend) {
+  auto tracker = mock_tracker();
+  tracker.tells_filter = false;
+  EXPECT_TRUE(tracker.track(FrameView{}).has_value());
+  EXPECT_TRUE(tracker.filter.feedback_x_m.empty());
+  EXPECT_EQ(tracker.backend.feedback_x_m, std::vector<double>{1.0});
+}
+
 TEST(FilteredTracker, FeedsNothingBackWithoutAPoseAndGoesOn) {
   auto tracker = mock_tracker();
   tracker.backend.pose.reset();
