@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "stillpoint/core/error.hpp"
 #include "stillpoint/detectors/raw_detection.hpp"
 #include "stillpoint/detectors/tensor.hpp"
+#include "unit/error_of.hpp"
 
 namespace stillpoint {
 
@@ -54,17 +54,6 @@ inline void expect_box(const RawDetection& found, float left, float top, float r
   EXPECT_NEAR(found.top, top, kPixelTolerance);
   EXPECT_NEAR(found.right, right, kPixelTolerance);
   EXPECT_NEAR(found.bottom, bottom, kPixelTolerance);
-}
-
-/// What the Error says that an action throws.
-template <class Action>
-std::string error_of(Action&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
 }
 
 inline void expect_contains(const std::string& text, const std::string& part) {

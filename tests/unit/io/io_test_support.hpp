@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the tests of readers and writers share: a folder that goes away, and the text of an error.
+// What the tests of readers and writers share: a folder that goes away.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <iterator>
 #include <string>
 
-#include "stillpoint/core/error.hpp"
+#include "unit/error_of.hpp"
 
 namespace stillpoint {
 
@@ -57,16 +57,5 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
-
-/// The message of the `Error` that `action` throws.
-template <class Action>
-std::string error_of(Action&& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 }  // namespace stillpoint
