@@ -23,15 +23,15 @@ namespace stillpoint::openvins {
 
 namespace detail {
 
-// One message for the first member that is missing.
+// One message, for the first member that is missing.
 // clang-format off
 template <class CameraData>
 struct CameraDataContract {
   static constexpr bool kImages = offers<CameraData>([](auto& m) -> decltype(void(m.images.size())) {});
-  static constexpr bool kMasks = offers<CameraData>([](auto& m) -> decltype(m.masks.push_back(cv::Mat())) {});
+  static constexpr bool kMasks = kImages && offers<CameraData>([](auto& m) -> decltype(m.masks.push_back(cv::Mat())) {});
   static_assert(kImages, "stillpoint: an OpenVINS CameraData must have images, a vector of cv::Mat; see adapters/openvins.hpp");
-  static_assert(kMasks, "stillpoint: an OpenVINS CameraData must have masks, a vector of cv::Mat; see adapters/openvins.hpp");
-  static constexpr bool holds = kImages && kMasks;
+  static_assert(!kImages || kMasks, "stillpoint: an OpenVINS CameraData must have masks, a vector of cv::Mat; see adapters/openvins.hpp");
+  static constexpr bool holds = kMasks;
 };
 // clang-format on
 

@@ -39,28 +39,27 @@ std::size_t compact_unless_all(span<const std::uint8_t> keep, const HostArray<Ar
   return kept_count(keep) == 0 ? keep.size() : compact_host_arrays("orb_slam", keep, arrays...);
 }
 
-// One message for the first member that is missing.
+// One message, for the first member that is missing.
 // clang-format off
 template <class Frame>
 struct FrameAtExtraction {
   static constexpr bool kKeys = offers<Frame>([](auto& frame) -> decltype(void(frame.mvKeys)) {});
-  static constexpr bool kDescriptors = offers<Frame>([](auto& frame) -> decltype(void(frame.mDescriptors)) {});
+  static constexpr bool holds = kKeys && offers<Frame>([](auto& frame) -> decltype(void(frame.mDescriptors)) {});
   static_assert(kKeys, "stillpoint: an ORB-SLAM Frame must have mvKeys, a vector of key points; see adapters/orb_slam.hpp");
-  static_assert(kDescriptors, "stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a key point; see adapters/orb_slam.hpp");
-  static constexpr bool holds = kKeys && kDescriptors;
+  static_assert(!kKeys || holds, "stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a key point; see adapters/orb_slam.hpp");
 };
 
 template <class Frame>
-struct FrameWithDepth : FrameAtExtraction<Frame> {
-  static constexpr bool kKeysUn = offers<Frame>([](auto& frame) -> decltype(void(frame.mvKeysUn)) {});
-  static constexpr bool kRight = offers<Frame>([](auto& frame) -> decltype(void(frame.mvuRight)) {});
-  static constexpr bool kDepth = offers<Frame>([](auto& frame) -> decltype(void(frame.mvDepth)) {});
-  static constexpr bool kN = offers<Frame>([](auto& frame) -> decltype(void(frame.N = 0)) {});
-  static_assert(kKeysUn, "stillpoint: an ORB-SLAM Frame must have mvKeysUn, the undistorted mvKeys; see adapters/orb_slam.hpp");
-  static_assert(kRight, "stillpoint: an ORB-SLAM Frame must have mvuRight, one float a key point; see adapters/orb_slam.hpp");
-  static_assert(kDepth, "stillpoint: an ORB-SLAM Frame must have mvDepth, one float a key point; see adapters/orb_slam.hpp");
-  static_assert(kN, "stillpoint: an ORB-SLAM Frame must have N, the number of key points; see adapters/orb_slam.hpp");
-  static constexpr bool holds = FrameAtExtraction<Frame>::holds && kKeysUn && kRight && kDepth && kN;
+struct FrameWithDepth {
+  static constexpr bool kBase = FrameAtExtraction<Frame>::holds;
+  static constexpr bool kKeysUn = kBase && offers<Frame>([](auto& frame) -> decltype(void(frame.mvKeysUn)) {});
+  static constexpr bool kRight = kKeysUn && offers<Frame>([](auto& frame) -> decltype(void(frame.mvuRight)) {});
+  static constexpr bool kDepth = kRight && offers<Frame>([](auto& frame) -> decltype(void(frame.mvDepth)) {});
+  static constexpr bool holds = kDepth && offers<Frame>([](auto& frame) -> decltype(void(frame.N = 0)) {});
+  static_assert(!kBase || kKeysUn, "stillpoint: an ORB-SLAM Frame must have mvKeysUn, the undistorted mvKeys; see adapters/orb_slam.hpp");
+  static_assert(!kKeysUn || kRight, "stillpoint: an ORB-SLAM Frame must have mvuRight, one float a key point; see adapters/orb_slam.hpp");
+  static_assert(!kRight || kDepth, "stillpoint: an ORB-SLAM Frame must have mvDepth, one float a key point; see adapters/orb_slam.hpp");
+  static_assert(!kDepth || holds, "stillpoint: an ORB-SLAM Frame must have N, the number of key points; see adapters/orb_slam.hpp");
 };
 // clang-format on
 

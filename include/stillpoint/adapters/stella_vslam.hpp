@@ -24,25 +24,12 @@ namespace stillpoint::stella_vslam {
 
 namespace detail {
 
-// One message for the first member that is missing.
-// clang-format off
 template <class Observation>
-struct ObservationContract {
-  static constexpr bool kDescriptors = offers<Observation>([](auto& o) -> decltype(void(o.descriptors_)) {});
-  static constexpr bool kKeypoints = offers<Observation>([](auto& o) -> decltype(void(o.undist_keypts_)) {});
-  static constexpr bool kBearings = offers<Observation>([](auto& o) -> decltype(void(o.bearings_)) {});
-  static constexpr bool kRight = offers<Observation>([](auto& o) -> decltype(void(o.stereo_x_right_)) {});
-  static constexpr bool kDepths = offers<Observation>([](auto& o) -> decltype(void(o.depths_)) {});
-  static constexpr bool kCells = offers<Observation>([](auto& o) -> decltype(void(o.keypt_indices_in_cells_)) {});
-  static_assert(kDescriptors, "stillpoint: a stella_vslam frame_observation must have descriptors_; see adapters/stella_vslam.hpp");
-  static_assert(kKeypoints, "stillpoint: a stella_vslam frame_observation must have undist_keypts_; see adapters/stella_vslam.hpp");
-  static_assert(kBearings, "stillpoint: a stella_vslam frame_observation must have bearings_; see adapters/stella_vslam.hpp");
-  static_assert(kRight, "stillpoint: a stella_vslam frame_observation must have stereo_x_right_; see adapters/stella_vslam.hpp");
-  static_assert(kDepths, "stillpoint: a stella_vslam frame_observation must have depths_; see adapters/stella_vslam.hpp");
-  static_assert(kCells, "stillpoint: a stella_vslam frame_observation must have keypt_indices_in_cells_; see adapters/stella_vslam.hpp");
-  static constexpr bool holds = kDescriptors && kKeypoints && kBearings && kRight && kDepths && kCells;
-};
-// clang-format on
+constexpr bool is_observation = offers<Observation>([](auto& o) -> decltype(  //
+                                                                    void(o.descriptors_), void(o.undist_keypts_),
+                                                                    void(o.bearings_), void(o.stereo_x_right_),
+                                                                    void(o.depths_),
+                                                                    void(o.keypt_indices_in_cells_)) {});
 
 }  // namespace detail
 
@@ -65,7 +52,10 @@ inline cv::Mat frame_mask_0_drops(const ImageView& mask, int image_width, int im
 /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(n).
 template <class Observation>
 std::size_t compact_observation(span<const std::uint8_t> keep, Observation& observation, std::vector<int>& old_to_new) {
-  if constexpr (detail::ObservationContract<Observation>::holds) {
+  static_assert(detail::is_observation<Observation>,
+                "stillpoint: a stella_vslam frame_observation must have descriptors_, undist_keypts_, bearings_, "
+                "stereo_x_right_, depths_ and keypt_indices_in_cells_; see adapters/stella_vslam.hpp");
+  if constexpr (detail::is_observation<Observation>) {
     const std::size_t kept = compact_host_arrays(
         "stella_vslam", keep, host_array("descriptors_", observation.descriptors_),
         host_array("undist_keypts_", observation.undist_keypts_), host_array("bearings_", observation.bearings_),

@@ -26,17 +26,17 @@ namespace stillpoint::vins {
 
 namespace detail {
 
-// One message for the first member that is missing.
+// One message, for the first member that is missing.
 // clang-format off
 template <class Tracker>
 struct TrackerContract {
   static constexpr bool kPoints = offers<Tracker>([](auto& tracker) -> decltype(void(tracker.cur_pts)) {});
-  static constexpr bool kIds = offers<Tracker>([](auto& tracker) -> decltype(void(tracker.ids)) {});
-  static constexpr bool kCounts = offers<Tracker>([](auto& tracker) -> decltype(void(tracker.track_cnt)) {});
+  static constexpr bool kIds = kPoints && offers<Tracker>([](auto& tracker) -> decltype(void(tracker.ids)) {});
+  static constexpr bool kCounts = kIds && offers<Tracker>([](auto& tracker) -> decltype(void(tracker.track_cnt)) {});
   static_assert(kPoints, "stillpoint: a VINS FeatureTracker must have cur_pts, the tracked pixels; see adapters/vins.hpp");
-  static_assert(kIds, "stillpoint: a VINS FeatureTracker must have ids, one a tracked pixel; see adapters/vins.hpp");
-  static_assert(kCounts, "stillpoint: a VINS FeatureTracker must have track_cnt, one a tracked pixel; see adapters/vins.hpp");
-  static constexpr bool holds = kPoints && kIds && kCounts;
+  static_assert(!kPoints || kIds, "stillpoint: a VINS FeatureTracker must have ids, one a tracked pixel; see adapters/vins.hpp");
+  static_assert(!kIds || kCounts, "stillpoint: a VINS FeatureTracker must have track_cnt, one a tracked pixel; see adapters/vins.hpp");
+  static constexpr bool holds = kCounts;
 };
 // clang-format on
 
