@@ -44,7 +44,9 @@ HostArray<Array> optional_host_array(const char* name, Array& array) {
   return {name, array, true};
 }
 
-/// @param host  begins the message
+/// @param host    begins the message
+/// @param keep    one byte a feature
+/// @param arrays  an optional one may be empty
 /// @throws Error that names the first array with another size than `keep`
 template <class... Arrays>
 void require_aligned_host_arrays(const char* host, span<const std::uint8_t> keep, const HostArray<Arrays>&... arrays) {
@@ -57,6 +59,9 @@ void require_aligned_host_arrays(const char* host, span<const std::uint8_t> keep
 }
 
 /// As `compact`, with an error that names the array.
+/// @param host    begins the message
+/// @param keep    one byte a feature, 0 drops
+/// @param arrays  an optional one may be empty
 /// @return how many are left
 /// @throws Error as `require_aligned_host_arrays`; then none was changed. O(n) for each array.
 template <class... Arrays>

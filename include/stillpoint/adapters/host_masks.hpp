@@ -16,6 +16,7 @@
 namespace stillpoint {
 
 /// @param user  begins the message
+/// @param mask  what is looked at
 /// @throws Error unless the mask is gray8
 inline void require_mask(const char* user, const ImageView& mask) {
   if (mask.empty() || mask.format != PixelFormat::gray8)
@@ -23,6 +24,10 @@ inline void require_mask(const char* user, const ImageView& mask) {
                 ", expected gray8, one byte a pixel");
 }
 
+/// @param user   begins the message
+/// @param mask   what is looked at
+/// @param width  pixels of the image
+/// @param height pixels of the image
 /// @throws Error unless the mask is gray8 and of this size
 inline void require_mask_of_size(const char* user, const ImageView& mask, int width, int height) {
   require_mask(user, mask);

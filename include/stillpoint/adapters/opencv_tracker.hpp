@@ -50,8 +50,10 @@ inline void drop_lost(span<const std::uint8_t> status, std::vector<std::uint8_t>
 }
 
 /// Compacts the points of both frames together with what belongs to them, in order.
-/// @param keep  one byte a point, 0 drops
-/// @param more  errors, ids, ages: arrays with one entry a point
+/// @param keep      one byte a point, 0 drops
+/// @param previous  points in the last image
+/// @param current   the same points in this one
+/// @param more      errors, ids, ages: arrays with one entry a point
 /// @return how many are left
 /// @throws Error if an array has another size than `keep`; then nothing was changed. O(n).
 template <class Points, class... MoreArrays>
@@ -62,6 +64,7 @@ std::size_t compact_tracks(span<const std::uint8_t> keep, Points& previous, Poin
 
 /// The mask of cv::Feature2D::detect and cv::goodFeaturesToTrack: 0 drops, 255 keeps, the filter's own polarity. Holds
 /// as long as the mask's pixels do.
+/// @param mask  gray8, 255 keeps
 /// @throws Error unless the mask is gray8
 inline cv::Mat detection_mask_0_drops(const ImageView& mask) {
   require_mask("opencv_tracker", mask);

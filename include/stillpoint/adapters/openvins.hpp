@@ -23,8 +23,8 @@ namespace stillpoint::openvins {
 
 namespace detail {
 
-// One message, for the first member that is missing.
 // clang-format off
+/// What `set_masks_255_drops` touches. One message, for the first member that is missing.
 template <class CameraData>
 struct CameraDataContract {
   static constexpr bool kImages = offers<CameraData>([](auto& m) -> decltype(void(m.images.size())) {});

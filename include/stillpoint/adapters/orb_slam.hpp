@@ -39,8 +39,8 @@ std::size_t compact_unless_all(span<const std::uint8_t> keep, const HostArray<Ar
   return kept_count(keep) == 0 ? keep.size() : compact_host_arrays("orb_slam", keep, arrays...);
 }
 
-// One message, for the first member that is missing.
 // clang-format off
+/// What hook B touches. One message, for the first member that is missing.
 template <class Frame>
 struct FrameAtExtraction {
   static constexpr bool kKeys = offers<Frame>([](auto& frame) -> decltype(void(frame.mvKeys)) {});
@@ -49,6 +49,7 @@ struct FrameAtExtraction {
   static_assert(!kKeys || holds, "stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a key point; see adapters/orb_slam.hpp");
 };
 
+/// What hook A touches.
 template <class Frame>
 struct FrameWithDepth {
   static constexpr bool kBase = FrameAtExtraction<Frame>::holds;
@@ -68,8 +69,9 @@ struct FrameWithDepth {
 /// Hook A: compacts mvKeys, mvKeysUn, mvuRight, mvDepth and the rows of mDescriptors together, in order, and sets N.
 /// Call it when all of them are filled and nothing else is sized by N: in the RGB-D constructor after
 /// ComputeStereoFromRGBD, in that for rectified stereo after ComputeStereoMatches.
-/// @param keep  one byte a key point, 0 drops; all 0 drops none
-/// @param more  arrays of a fork with one entry a key point
+/// @param keep   one byte a key point, 0 drops; all 0 drops none
+/// @param frame  the host's Frame
+/// @param more   arrays of a fork with one entry a key point
 /// @return the new N
 /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(N).
 template <class Frame, class... MoreArrays>
@@ -92,8 +94,9 @@ std::size_t compact_after_depth(span<const std::uint8_t> keep, Frame& frame, Mor
 
 /// Hook B: compacts mvKeys and the rows of mDescriptors; the host derives the rest, N too, from them.
 /// Call it right after ExtractORB.
-/// @param keep  one byte a key point, 0 drops; all 0 drops none
-/// @param more  arrays of a fork with one entry a key point
+/// @param keep   one byte a key point, 0 drops; all 0 drops none
+/// @param frame  the host's Frame
+/// @param more   arrays of a fork with one entry a key point
 /// @return how many are left
 /// @throws Error as `compact_after_depth`. O(N).
 template <class Frame, class... MoreArrays>
@@ -109,8 +112,11 @@ std::size_t compact_after_extraction(span<const std::uint8_t> keep, Frame& frame
 
 /// Hook B for one of two fisheye cameras (ORB-SLAM3), whose key points outside of the common view come first: mvKeys,
 /// mDescriptors, monoLeft, or mvKeysRight, mDescriptorsRight, monoRight. Before Nleft and Nright are set.
-/// @param mono_count  how many come first; recounted
-/// @return how many are left; all 0 drops none
+/// @param keep         one byte a key point of this camera, 0 drops; all 0 drops none
+/// @param keypoints    of this camera
+/// @param descriptors  one row a key point
+/// @param mono_count   how many come first; recounted
+/// @return how many are left
 /// @throws Error as `compact_after_depth`, and if `mono_count` is no number of key points. O(N).
 template <class Keypoints, class Descriptors>
 std::size_t compact_mono_first(span<const std::uint8_t> keep, Keypoints& keypoints, Descriptors& descriptors,
@@ -126,6 +132,7 @@ std::size_t compact_mono_first(span<const std::uint8_t> keep, Keypoints& keypoin
 
 /// How much must be left for the host. Tracking::StereoInitialization wants more than 500 features, counted with and
 /// without depth, and is silent below; later TrackLocalMap wants 30 inliers, and 50 soon after a relocalisation.
+/// @param is_initialised  is there a map already?
 inline KeepFloor::Options keep_floor(bool is_initialised) {
   KeepFloor::Options options;
   options.fewest_features = is_initialised ? 50 : 501;
@@ -133,6 +140,7 @@ inline KeepFloor::Options keep_floor(bool is_initialised) {
 }
 
 /// How many features to ask the extractor for, so that about `wanted` are left when those in a share of the image go.
+/// @param wanted              how many shall be left
 /// @param dropped_area_share  0 to 1, of the image that is likely to be dropped; NaN counts as 0
 /// @param most_factor         never more than this times `wanted`, 1 or more; forks take 1.5 (NGD-SLAM) to 2.2
 ///                            (Crowd-SLAM)
@@ -161,8 +169,10 @@ void erase_masked_candidates(const ImageView& mask, Candidates& candidates, int 
 }
 
 /// invSigma2 of an edge in Optimizer::PoseOptimization, times what the filter thinks of its feature.
-/// @param weights  one a key point as `stillpoint::weights` gives them, 0 to 1; empty: all are trusted
-/// @param least    lowest weight: an edge without information has no error and passes for an inlier
+/// @param inv_sigma2  the host's, of the key point's pyramid level
+/// @param weights     one a key point as `stillpoint::weights` gives them, 0 to 1; empty: all are trusted
+/// @param i           the key point
+/// @param least       lowest weight: an edge without information has no error and passes for an inlier
 template <class Scalar>
 Scalar weighted_inv_sigma2(Scalar inv_sigma2, span<const float> weights, std::size_t i, float least = 0.05f) {
   const float weight = weights.empty() ? 1.0f : weights[i] > least ? std::min(weights[i], 1.0f) : least;  // NaN: least
@@ -173,6 +183,8 @@ Scalar weighted_inv_sigma2(Scalar inv_sigma2, span<const float> weights, std::si
 /// frame.
 /// @param K           3x3 float
 /// @param distortion  mDistCoef: k1 k2 p1 p2 and perhaps k3, float; empty: none
+/// @param width       pixels of the image
+/// @param height      pixels of the image
 /// @throws Error if they have another size or type, or no camera comes of them
 inline Camera camera(const cv::Mat& K, const cv::Mat& distortion, int width, int height) {
   if (K.type() != CV_32FC1 || K.rows != 3 || K.cols != 3)

@@ -26,6 +26,8 @@ namespace stillpoint::rtabmap {
 
 /// Compacts the three arguments of SensorData::setFeatures together, in order. The last two may be empty, as there.
 /// @param keep         one byte a key point, 0 drops
+/// @param keypoints    pixels
+/// @param keypoints3D  points in the camera's frame, as the host wants them
 /// @param descriptors  one row a key point
 /// @return how many are left
 /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(n).

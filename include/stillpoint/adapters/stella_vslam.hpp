@@ -35,7 +35,9 @@ constexpr bool is_observation = offers<Observation>([](auto& o) -> decltype(  //
 
 /// The last argument of feed_RGBD_frame and its like: 0 drops, 255 keeps, which is the filter's own polarity. It takes
 /// the place of mask_rectangles in the host's configuration. The host checks nothing but the type, and that by assert.
-/// @param mask  gray8 of the image's size, 255 keeps
+/// @param mask          gray8 of the image's size, 255 keeps
+/// @param image_width   pixels
+/// @param image_height  pixels
 /// @throws Error if it is not
 inline cv::Mat frame_mask_0_drops(const ImageView& mask, int image_width, int image_height) {
   require_mask_of_size("stella_vslam", mask, image_width, image_height);
@@ -78,6 +80,7 @@ std::size_t compact_observation(span<const std::uint8_t> keep, Observation& obse
 
 /// How much must be left for the host: it starts with 50 valid depths (Initializer.min_num_triangulated_pts) and tracks
 /// with 20 matches. Twice as many here, because not every feature has a depth or finds its match.
+/// @param is_initialised  is there a map already?
 inline KeepFloor::Options keep_floor(bool is_initialised) {
   KeepFloor::Options options;
   options.fewest_features = is_initialised ? 40 : 100;

@@ -26,8 +26,8 @@ namespace stillpoint::vins {
 
 namespace detail {
 
-// One message, for the first member that is missing.
 // clang-format off
+/// What `compact_tracks` touches. One message, for the first member that is missing.
 template <class Tracker>
 struct TrackerContract {
   static constexpr bool kPoints = offers<Tracker>([](auto& tracker) -> decltype(void(tracker.cur_pts)) {});
@@ -58,8 +58,9 @@ inline void paint_mask_255_is_free(const ImageView& mask, cv::Mat& host_mask) {
 }
 
 /// Compacts cur_pts, ids and track_cnt together, in order.
-/// @param keep  one byte a point of cur_pts, 0 drops
-/// @param more  arrays of a fork with one entry a point; in trackImage before setMask prev_pts is one
+/// @param keep     one byte a point of cur_pts, 0 drops
+/// @param tracker  the host's FeatureTracker
+/// @param more     arrays of a fork with one entry a point; in trackImage before setMask prev_pts is one
 /// @return how many are left
 /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(n).
 template <class Tracker, class... MoreArrays>
@@ -73,8 +74,9 @@ std::size_t compact_tracks(span<const std::uint8_t> keep, Tracker& tracker, More
 }
 
 /// Adds the ids of what was dropped to a set, as Estimator::removeOutliers takes it.
-/// @param keep  one byte a feature, 0 drops
-/// @param ids   the features' ids, in the order of the flags
+/// @param keep     one byte a feature, 0 drops
+/// @param ids      the features' ids, in the order of the flags
+/// @param dropped  what is in it stays
 /// @throws Error if there is not one id a flag
 template <class Ids, class IdSet>
 void dropped_ids(span<const std::uint8_t> keep, const Ids& ids, IdSet& dropped) {
@@ -86,7 +88,8 @@ void dropped_ids(span<const std::uint8_t> keep, const Ids& ids, IdSet& dropped) 
 }
 
 /// Erases features from what Estimator::inputFeature takes, map<id, observations>. One walk over both, O(n + m).
-/// @param dropped  ids, ascending: std::set<int>, or a sorted vector
+/// @param dropped        ids, ascending: std::set<int>, or a sorted vector
+/// @param feature_frame  std::map from id to observations
 /// @return how many were erased; ids that are not in the frame are passed over
 template <class IdSet, class FeatureFrame>
 std::size_t erase_features(const IdSet& dropped, FeatureFrame& feature_frame) {

@@ -46,7 +46,8 @@ inline void flags_from_weights(span<const float> weights, std::vector<std::uint8
 }
 
 /// Is the mask at the rounded pixel 0? What lies outside of the mask, and NaN, is not dropped.
-/// @param mask  gray8, 255 keeps, 0 drops; an empty one drops nothing
+/// @param mask   gray8, 255 keeps, 0 drops; an empty one drops nothing
+/// @param pixel  of the mask
 inline bool mask_drops(const ImageView& mask, const Vector2f& pixel) noexcept {
   if (!(mask.border_distance_px(pixel.x(), pixel.y()) >= -0.5f)) return false;  // NaN too
   const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));

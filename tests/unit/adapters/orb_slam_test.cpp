@@ -93,11 +93,13 @@ TEST(OrbSlam, ACandidateIsLookedUpWhereItsKeyPointWillBe) {
   cv::Mat mask(480, 640, CV_8UC1, cv::Scalar(255));
   mask.at<unsigned char>(38, 40) = 0;
   std::vector<cv::KeyPoint> candidates;
+  candidates.reserve(5);
   for (int i = 0; i < 3; ++i) candidates.emplace_back(static_cast<float>(3 + i), 3.0f, 7.0f, -1.0f, 0.0f, 0, i);
   candidates.emplace_back(static_cast<float>(kNaN), 3.0f, 7.0f, -1.0f, 0.0f, 0, 3);
   candidates.emplace_back(5000.0f, 3.0f, 7.0f, -1.0f, 0.0f, 0, 4);  // outside of the mask
   orb_slam::erase_masked_candidates(mask, candidates, 16, 2.0);
   std::vector<int> left;
+  left.reserve(candidates.size());
   for (const cv::KeyPoint& candidate : candidates) left.push_back(candidate.class_id);
   EXPECT_EQ(left, (std::vector<int>{0, 2, 3, 4})) << "in order; where the mask says nothing, they stay";
   orb_slam::erase_masked_candidates(stillpoint::ImageView(), candidates, 16, 2.0);
