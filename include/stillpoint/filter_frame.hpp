@@ -13,10 +13,10 @@
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/keypoint.hpp"
+#include "stillpoint/core/mask_prediction.hpp"
 #include "stillpoint/core/motion_expectation.hpp"
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
-#include "stillpoint/verdict/mask_prediction.hpp"
 
 namespace stillpoint {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/verdict/mask_prediction.hpp"
+#include "stillpoint/core/mask_prediction.hpp"
 
 #include <gtest/gtest.h>
 
