@@ -6,6 +6,7 @@
 
 #include <cstddef>
 
+#include "stillpoint/cluster/flow_neighbours.hpp"
 #include "stillpoint/cluster/region_clusters.hpp"
 #include "stillpoint/cluster/surface_clusters.hpp"
 #include "stillpoint/core/camera.hpp"
@@ -19,12 +20,14 @@
 #include "stillpoint/memory/evidence_memory.hpp"
 #include "stillpoint/memory/no_memory.hpp"
 #include "stillpoint/motion/epipolar_motion.hpp"
+#include "stillpoint/motion/monocular_motion.hpp"
 #include "stillpoint/motion/rigid_motion.hpp"
 #include "stillpoint/motion/support_motion.hpp"
 #include "stillpoint/prior/box_prior.hpp"
 #include "stillpoint/prior/foreground_prior.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/score/offset_score.hpp"
+#include "stillpoint/score/sampson_score.hpp"
 #include "stillpoint/score/sighting_score.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
 #include "stillpoint/verdict/no_keep_floor.hpp"
@@ -67,6 +70,16 @@ struct DefaultPolicies {
   using Memory = EvidenceMemory;
   using KeepFloor = stillpoint::KeepFloor;
   static constexpr std::size_t kHistoryLength = 16;  ///< half a second at 30 Hz, 15 MB in 640 × 480
+};
+
+/// For one camera without depth. Verdicts are by epipolar geometry between neighbouring frames and add up over time:
+/// what moves along its epipolar line is not found, unless a detector's box covers it. Nothing is in metres.
+struct MonocularPolicies : DefaultPolicies {
+  using Matcher = LucasKanade;
+  using EgoMotion = MonocularMotion;
+  using Scorer = SampsonScore;
+  using Classifier = FlowNeighbours;
+  static constexpr std::size_t kHistoryLength = 1;
 };
 
 }  // namespace stillpoint

@@ -20,6 +20,7 @@ struct Motion {
   /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v.
   Matrix6d covariance = Matrix6d::Zero();
   double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
+  bool metric = true;      ///< false: nobody knows the scale; the translation is a direction of length 1, or zero
   bool standing = false;   ///< the camera did not move at all: the pose is the identity, not an estimate
   double pixel_sigma = 0;  ///< of the matches that support it, measured; pixels, 0 where nobody says
   double depth_noise = 1;  ///< of depths that support it, measured, over what the noise model says; 1 where nobody says

@@ -58,6 +58,7 @@ class EpipolarMotion {
     double pixel_sigma_px = 1.0;    ///< of a match, for the noise of the scale
     bool printed_eq3 = false;       ///< E = K F Kᵀ, as printed
     bool unit_translation = false;  ///< leaves ‖t‖ = 1, as printed: Eq. 6 then has a false offset
+    float least_trust = 0.0f;       ///< of a candidate, from memory: above 0 what is suspect takes no part
     std::uint64_t seed = Random::kDefaultSeed;
   };
   Options options;
@@ -68,10 +69,11 @@ class EpipolarMotion {
                   Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     Motion motion;
-    const auto any = [](std::size_t) { return true; };
+    const auto trusted = [&](std::size_t i) { return matches.trust[i] >= options.least_trust; };
     const Pairs pairs =
-        gather(matches, select_candidates(matches, regions, options.candidates, workspace, any), camera, workspace);
+        gather(matches, select_candidates(matches, regions, options.candidates, workspace, trusted), camera, workspace);
     motion.candidates = static_cast<int>(pairs.size());
+    motion.metric = !options.unit_translation;
     if (pairs.size() < kLeastMatches) {
       motion.status = Status::too_few_matches;
     } else if (options.solver == Solver::seven) {

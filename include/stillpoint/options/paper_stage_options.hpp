@@ -46,6 +46,7 @@ void each_option(EpipolarMotion& stage, Visit& visit) {
   visit.positive("pixel_sigma_px", stage.options.pixel_sigma_px);
   visit("printed_eq3", stage.options.printed_eq3);
   visit("unit_translation", stage.options.unit_translation);
+  visit("least_trust", stage.options.least_trust);
   visit("seed", stage.options.seed);
 }
 

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What moves together, when there is no depth?   Neighbours that go the same way share their evidence.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// Gives every feature the log-odds of this frame: its own evidence and its neighbours', minus the threshold, and what
+/// the regions say of its place. A feature without a match takes its neighbours' alone.
+class FlowNeighbours {
+ public:
+  struct Options {
+    float reach_px = 30.0f;        ///< how far neighbours are
+    float same_flow_px = 1.5f;     ///< steps since the reference frame that differ less are one motion …
+    float same_flow_share = 0.1f;  ///< … and by this share of their length more
+    float own_share = 0.4f;        ///< of a feature's own evidence in its log-odds; the rest is the neighbours' mean
+    float lowest = -0.5f;          ///< a single score is held above this, nats
+    float alone = -1.0f;           ///< log-odds of a feature that knows nothing and has no neighbours
+    float dynamic_shift = 1.5f;    ///< what lies in a dynamic region; the background seen there as well
+    float outside_shift = -1.0f;   ///< what lies in none, when a detector has found something dynamic
+    float movable_shift = 0.2f;
+    float fixed_shift = -0.3f;
+  };
+  Options options;
+
+  void classify(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
+                const Regions& regions, span<Label> labels, Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const PixelGrid grid(matches.current.pixel, options.reach_px, workspace,
+                         [&](std::size_t i) { return scores[i].scored(); });
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      Label& label = labels[i];
+      const Vote vote = neighbours(matches, scores, grid, i);
+      label.reason = scores[i].scored()                        ? Reason::consistent
+                     : matches.state[i] == MatchState::outside ? Reason::outside_image
+                     : vote.weight > 0                         ? Reason::neighbours
+                                                               : Reason::no_match;
+      if (!scores[i].scored() && !(vote.weight > 0)) {
+        label.log_odds = options.alone;
+        continue;
+      }
+      const float others = vote.weight > 0 ? vote.sum / vote.weight : held(scores[i]);
+      const float own = scores[i].scored() ? held(scores[i]) : others;
+      const Membership& region = regions.of_feature[i];
+      label.log_odds = options.own_share * own + (1 - options.own_share) * others -
+                       static_cast<float>(threshold.level) +
+                       (region.in_dynamic   ? options.dynamic_shift
+                        : region.in_movable ? options.movable_shift
+                        : region.in_fixed   ? options.fixed_shift
+                                            : options.outside_shift);
+    }
+  }
+
+ private:
+  struct Vote {
+    float weight = 0, sum = 0;
+  };
+
+  float held(const FeatureScore& score) const noexcept { return std::max(score.value, options.lowest); }
+
+  Vote neighbours(const Matches& matches, span<const FeatureScore> scores, const PixelGrid& grid, std::size_t i) const {
+    const auto step = [&matches](std::size_t k) -> Vector2f {
+      return matches.current.pixel[k] - matches.reference.pixel[k];
+    };
+    const bool has_step = matches.matched(i);
+    const Vector2f own = has_step ? step(i) : Vector2f::Zero();
+    const float limit_px = options.same_flow_px + options.same_flow_share * own.norm();
+    Vote vote;
+    grid.within(matches.current.pixel[i], options.reach_px, [&](std::size_t j, float squared) {
+      if (j == i || (has_step && !((step(j) - own).squaredNorm() <= limit_px * limit_px))) return;
+      const float near = 1 - squared / (options.reach_px * options.reach_px);
+      vote.weight += near;
+      vote.sum += near * held(scores[j]);
+    });
+    return vote;
+  }
+};
+
+}  // namespace stillpoint

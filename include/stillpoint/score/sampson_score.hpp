@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How badly does a feature disagree with the camera's motion, when there is no depth?   By its distance from the
+// epipolar line, and by where on that line it is.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+
+namespace stillpoint {
+
+/// A log-likelihood ratio, moving against standing, nats. A standing point lies on its epipolar line (Sampson's
+/// distance, one degree of freedom) and on that side of the point at infinity on which it is before the camera. What
+/// moves along its line towards nearer depths looks like something near: it is not found. Where the camera only turned
+/// there are no lines; a point is expected where the rotation takes it, give or take a little parallax.
+class SampsonScore {
+ public:
+  struct Options {
+    double least_pixel_sigma = 0.5;   ///< of a match, pixels; it is measured on the trusted matches of each frame
+    double most_pixel_sigma = 1.0;    ///< where it is more, the motion does not explain the frame: nothing is scored
+    double turned_parallax_px = 1.0;  ///< what a step that was too small for a direction may still move a near point
+    double most_evidence = 8.0;       ///< −log of the share of bad matches: no pair of frames decides alone
+    double expected = 0.5;            ///< what a standing point scores on average: half a squared sigma
+    float least_trust = 0.5f;         ///< of a match by which noise is measured
+  };
+  Options options;
+
+  /// Scores the features that are matched; the others keep NaN.
+  template <class Camera>
+  void score(const Matches& matches, const Motion& motion, const Camera& camera, span<FeatureScore> scores) {
+    const Geometry<Camera> geometry(motion, camera);
+    distances_.clear();
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      if (matches.matched(i) && matches.trust[i] >= options.least_trust)
+        distances_.push_back(geometry.distance_px(matches, i));
+    if (distances_.size() < kFewestMatches) return;
+    const double measured_px = kMadToSigma * median_in_place(span<double>(distances_));
+    if (!(measured_px <= options.most_pixel_sigma)) return;
+    const double sigma_px = std::max(measured_px, options.least_pixel_sigma);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (!matches.matched(i)) continue;
+      double distance_px = geometry.distance_px(matches, i);
+      if (!geometry.has_lines()) distance_px = std::max(distance_px - options.turned_parallax_px, 0.0);
+      const double variance_px = sigma_px * sigma_px + geometry.pose_variance_px(matches, i);
+      const double behind = geometry.sigmas_behind(matches, i, std::sqrt(variance_px));
+      const double squared = distance_px * distance_px / variance_px + behind * behind;
+      if (!std::isfinite(squared)) continue;  // at the epipole there is no line
+      scores[i].value = static_cast<float>(std::min(0.5 * squared, options.most_evidence) - options.expected);
+    }
+  }
+
+ private:
+  static constexpr std::size_t kFewestMatches = 20;
+
+  /// Two views without a scale.
+  template <class Camera>
+  class Geometry {
+   public:
+    Geometry(const Motion& motion, const Camera& camera)
+        : camera_(camera),
+          focal_px_(0.5 * (camera.fx() + camera.fy())),
+          rotation_(motion.current_from_reference.linear()),
+          direction_(motion.current_from_reference.translation()),
+          covariance_(motion.covariance) {
+      const double length = direction_.norm();
+      has_lines_ = motion.status != Status::rotation_only && length > 0;
+      if (has_lines_) direction_ /= length;
+    }
+
+    bool has_lines() const noexcept { return has_lines_; }
+
+    /// From the epipolar line (Sampson, 1982), or from where the rotation takes the point. Pixels.
+    double distance_px(const Matches& matches, std::size_t i) const {
+      const Vector3d turned = rotation_ * ray(matches.reference.undistorted[i]);
+      const Vector3d seen = ray(matches.current.undistorted[i]);
+      if (!has_lines_)
+        return turned.z() > 0 ? focal_px_ * (turned.head<2>() / turned.z() - seen.head<2>()).norm() : kFar_px;
+      const Vector3d line = direction_.cross(turned);
+      const Vector3d reference_line = rotation_.transpose() * seen.cross(direction_);
+      const double slope_sq = line.head<2>().squaredNorm() + reference_line.head<2>().squaredNorm();
+      return focal_px_ * std::abs(seen.dot(line)) / std::sqrt(slope_sq);
+    }
+
+    /// What the motion's own uncertainty moves that distance, squared pixels. The derivative of c · (t × R p) by a
+    /// small rotation and translation after the motion is ((t × R p) × c, R p × c).
+    double pose_variance_px(const Matches& matches, std::size_t i) const {
+      if (!has_lines_) return focal_px_ * focal_px_ * covariance_.topLeftCorner<3, 3>().trace() / 3.0;
+      const Vector3d turned = rotation_ * ray(matches.reference.undistorted[i]);
+      const Vector3d seen = ray(matches.current.undistorted[i]);
+      const Vector3d line = direction_.cross(turned);
+      const Vector3d reference_line = rotation_.transpose() * seen.cross(direction_);
+      Vector6d derivative;
+      derivative << line.cross(seen), turned.cross(seen);
+      const double slope_sq = line.head<2>().squaredNorm() + reference_line.head<2>().squaredNorm();
+      return focal_px_ * focal_px_ * derivative.dot(covariance_ * derivative) / slope_sq;
+    }
+
+    /// How many standard deviations its inverse depth is below zero; 0 for a point before the camera.
+    double sigmas_behind(const Matches& matches, std::size_t i, double sigma_px) const {
+      if (!has_lines_) return 0.0;
+      const Vector3d turned = rotation_ * ray(matches.reference.undistorted[i]);
+      const Vector3d seen = ray(matches.current.undistorted[i]);
+      const Vector3d across = seen.cross(direction_);  // seen × (turned + ρ t) = 0
+      const double inverse_depth = -seen.cross(turned).dot(across) / across.squaredNorm();
+      const double sigma = std::sqrt(2.0) * sigma_px / focal_px_ / across.norm();
+      return std::max(-inverse_depth / sigma, 0.0);
+    }
+
+   private:
+    static constexpr double kFar_px = 1e3;
+    Vector3d ray(const Vector2d& undistorted) const { return camera_.back_project(undistorted, 1.0); }
+
+    const Camera& camera_;
+    double focal_px_;
+    Matrix3d rotation_;
+    Vector3d direction_;
+    Matrix6d covariance_;
+    bool has_lines_;
+  };
+
+  std::vector<double> distances_;
+};
+
+}  // namespace stillpoint
