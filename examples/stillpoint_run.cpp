@@ -20,6 +20,8 @@
 #include "run/figures.hpp"
 #include "run/filters.hpp"
 #include "run/frame_source.hpp"
+#include "run/interrupt.hpp"
+#include "run/open_source.hpp"
 #include "run/options.hpp"
 #include "run/overlay.hpp"
 #include "run/report_html.hpp"
@@ -52,12 +54,13 @@ void run(const Options& options) {
   cv::setNumThreads(options.threads);
   const std::unique_ptr<FrameSource> source = open_source(options);
   const std::unique_ptr<DetectionFeed> detector = open_feed(options);
+  catch_interrupt();
   make_folder(options.out);
   FeaturesFile features(options.out / "features.csv");
   FramesFile frames(options.out / "frames.csv");
   Gallery gallery(frame_count(options, *source));
 
-  const RunRecord record = with_filter(options, source->camera(), [&](auto filter) {
+  const RunRecord record = with_filter(options, *source, [&](auto filter) {
     return with_backend(options, source->camera(), [&](auto&& make_tracker) {
       return run_frames(options, *source, *detector, std::move(filter), make_tracker(), make_tracker(),
                         RunOutput{features, frames, gallery});

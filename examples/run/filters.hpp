@@ -23,20 +23,20 @@ namespace stillpoint_run {
 
 namespace detail {
 
-inline stillpoint::AnyDepthNoise depth_noise(const Options& options, const stillpoint::Camera& camera) {
+inline stillpoint::AnyDepthNoise depth_noise(const Options& options, const FrameSource& source) {
   if (options.depth_noise == "stereo") {
     stillpoint::StereoNoise stereo;
-    stereo.focal_px = camera.fx();
-    return stereo;
+    stereo.focal_px = source.camera().fx();
+    return source.stereo_noise().value_or(stereo);
   }
   if (options.depth_noise == "tof") return stillpoint::TimeOfFlightNoise{};
   return stillpoint::KinectNoise{};
 }
 
 template <class Policies>
-stillpoint::FrameFilter<Policies> paper_filter(const Options& options, const stillpoint::Camera& camera) {
-  stillpoint::FrameFilter<Policies> filter(camera);
-  filter.depth_noise = depth_noise(options, camera);
+stillpoint::FrameFilter<Policies> paper_filter(const Options& options, const FrameSource& source) {
+  stillpoint::FrameFilter<Policies> filter(source.camera());
+  filter.depth_noise = depth_noise(options, source);
   filter.scorer.options.printed_eq8 = options.prints_error("eq8");
   if constexpr (std::is_same_v<typename Policies::EgoMotion, stillpoint::EpipolarMotion>) {
     filter.ego_motion.options.printed_eq3 = options.prints_error("eq3");
@@ -54,9 +54,9 @@ inline SwitchedMotion::Kind motion_kind(const std::string& name) {
 }
 
 template <class Policies>
-stillpoint::FrameFilter<Policies> default_filter(const Options& options, const stillpoint::Camera& camera) {
-  stillpoint::FrameFilter<Policies> filter(camera);
-  filter.depth_noise = depth_noise(options, camera);
+stillpoint::FrameFilter<Policies> default_filter(const Options& options, const FrameSource& source) {
+  stillpoint::FrameFilter<Policies> filter(source.camera());
+  filter.depth_noise = depth_noise(options, source);
   filter.gate.options.false_positive_rate = options.false_positive_rate;
   support_motion(filter.ego_motion).options.seed = options.seed;
   filter.classifier.options.seed = options.seed;
@@ -72,18 +72,18 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const s
 
 /// Calls `use(filter)` with the filter that the options name. A further policy set is a further line.
 template <class Use>
-decltype(auto) with_filter(const Options& options, const stillpoint::Camera& camera, Use&& use) {
+decltype(auto) with_filter(const Options& options, const FrameSource& source, Use&& use) {
   using stillpoint::DefaultPolicies;
   using stillpoint::PaperPolicies;
   using stillpoint::PaperRigidPolicies;
   if (options.prior == "labels") return use(examples::OracleFilter{});
   if (options.policies == "default") {
     if (options.ego_motion != "default" || options.without.needs_other_stages())
-      return use(detail::default_filter<Watched<SwitchedPolicies>>(options, camera));
-    return use(detail::default_filter<Watched<DefaultPolicies>>(options, camera));
+      return use(detail::default_filter<Watched<SwitchedPolicies>>(options, source));
+    return use(detail::default_filter<Watched<DefaultPolicies>>(options, source));
   }
-  if (options.ego_motion == "rigid") return use(detail::paper_filter<Watched<PaperRigidPolicies>>(options, camera));
-  return use(detail::paper_filter<Watched<PaperPolicies>>(options, camera));
+  if (options.ego_motion == "rigid") return use(detail::paper_filter<Watched<PaperRigidPolicies>>(options, source));
+  return use(detail::paper_filter<Watched<PaperPolicies>>(options, source));
 }
 
 /// Tells a filter what is known of the coming frame before it looks.

@@ -6,14 +6,18 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/distortion.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/io/number_format.hpp"
 
 namespace stillpoint {
 
@@ -21,6 +25,12 @@ namespace stillpoint {
 struct RgbdCamera {
   Camera camera;
   double depth_factor = 5000.0;  ///< what a 16-bit depth image counts per metre
+};
+
+/// A camera without depth images, the left one of a rectified pair where there is a baseline.
+struct ImageCamera {
+  Camera camera;
+  std::optional<double> baseline_m;  ///< from the left camera to the right one
 };
 
 namespace detail {
@@ -35,13 +45,23 @@ class CameraFields {
     try {
       if (storage_.open(file_, cv::FileStorage::READ)) return;
     } catch (const cv::Exception& error) {
-      throw Error(file_ + ": " + error.err +
-                  ", expected YAML as OpenCV's FileStorage writes it, beginning with %YAML:1.0");
+      fail_to_parse(error, 0, "YAML as OpenCV's FileStorage writes it, beginning with %YAML:1.0");
     }
     throw Error(file_ + ": cannot be read");
   }
 
+  /// @param text  YAML as it stands in the file, without the first line that FileStorage asks for
+  CameraFields(const std::filesystem::path& file, const std::string& text) : file_(file.string()) {
+    try {
+      if (storage_.open("%YAML:1.0\n---\n" + text, cv::FileStorage::READ | cv::FileStorage::MEMORY)) return;
+    } catch (const cv::Exception& error) {
+      fail_to_parse(error, 2, "YAML");
+    }
+    throw Error(file_ + ": cannot be read, expected YAML");
+  }
+
   bool has(const char* field) const { return !storage_[field].empty(); }
+  cv::FileNode operator[](const char* field) const { return storage_[field]; }
 
   double number(const char* field, const char* expected) const {
     const cv::FileNode node = storage_[field];
@@ -77,6 +97,18 @@ class CameraFields {
   }
 
  private:
+  /// Says in which line it is: FileStorage puts "(LINE): reason" where others have the name of a function.
+  /// @param lines_before  that are not in the file
+  [[noreturn]] void fail_to_parse(const cv::Exception& error, int lines_before, const std::string& expected) const {
+    const std::size_t end = error.func.find("): "), begin = error.func.rfind('(', end);
+    std::optional<double> line;
+    if (end != std::string::npos && begin != std::string::npos)
+      line = parse_number(std::string_view(error.func).substr(begin + 1, end - begin - 1));
+    if (!line) throw Error(file_ + ": " + error.err + ", expected " + expected);
+    throw Error(file_ + ':' + std::to_string(std::max(1, static_cast<int>(*line) - lines_before)) + ": " +
+                error.func.substr(end + 3) + ", expected " + expected);
+  }
+
   std::string file_;
   cv::FileStorage storage_;
 };
@@ -115,6 +147,19 @@ inline AnyDistortion read_distortion(const CameraFields& fields) {
   fields.fail("model", "is '" + model + "'", kModels);
 }
 
+/// `fx fy cx cy width height` and the lens.
+inline Camera read_intrinsics(const CameraFields& fields) {
+  const char* const focal_length = "a positive focal length in pixels";
+  const char* const principal_point = "a finite principal point in pixels";
+  const double fx = fields.positive("fx", focal_length);
+  const double fy = fields.positive("fy", focal_length);
+  const double cx = fields.number("cx", principal_point);
+  const double cy = fields.number("cy", principal_point);
+  const int width = fields.size("width");
+  const int height = fields.size("height");
+  return Camera(fx, fy, cx, cy, width, height, read_distortion(fields));
+}
+
 }  // namespace detail
 
 /// Reads camera.yaml (OpenCV's FileStorage): `fx fy cx cy` in pixels, `width height`, `depth_factor`; optionally
@@ -124,17 +169,19 @@ inline AnyDistortion read_distortion(const CameraFields& fields) {
 ///         three, or coefficients are given that the model does not have.
 inline RgbdCamera read_camera(const std::filesystem::path& file) {
   const detail::CameraFields fields(file);
-  const char* const focal_length = "a positive focal length in pixels";
-  const char* const principal_point = "a finite principal point in pixels";
-  const double fx = fields.positive("fx", focal_length);
-  const double fy = fields.positive("fy", focal_length);
-  const double cx = fields.number("cx", principal_point);
-  const double cy = fields.number("cy", principal_point);
-  const int width = fields.size("width");
-  const int height = fields.size("height");
-  const double depth_factor =
-      fields.positive("depth_factor", "the positive number that a depth image counts per metre");
-  return {Camera(fx, fy, cx, cy, width, height, detail::read_distortion(fields)), depth_factor};
+  const Camera camera = detail::read_intrinsics(fields);
+  return {camera, fields.positive("depth_factor", "the positive number that a depth image counts per metre")};
+}
+
+/// Reads the same file for images without depth: `depth_factor` may be missing and is not looked at; `baseline_m`, the
+/// distance in metres to the right camera of a rectified pair, may be there.
+/// @throws Error as `read_camera`, and for a baseline that is not positive.
+inline ImageCamera read_image_camera(const std::filesystem::path& file) {
+  const detail::CameraFields fields(file);
+  ImageCamera result{detail::read_intrinsics(fields), std::nullopt};
+  if (fields.has("baseline_m"))
+    result.baseline_m = fields.positive("baseline_m", "the positive distance of the two cameras in metres");
+  return result;
 }
 
 /// The camera of an original folder of the TUM RGB-D benchmark, told by `freiburg1`, `freiburg2` or `freiburg3` in the
