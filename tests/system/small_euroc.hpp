@@ -69,7 +69,8 @@ inline void write_euroc_sequence(const fs::path& folder, stillpoint::synthetic::
   const fs::path mav0 = folder / "mav0";
   for (const char* name : {"cam0", "cam1"}) fs::create_directories(mav0 / name / "data");
   std::string images = "#timestamp [ns],filename\r\n";
-  std::string truth = "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []\r\n";
+  std::string truth =
+      "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z []\r\n";
   stillpoint::SyntheticFrame frame;
   for (int i = 0; i < left.size(); ++i) {
     left.render(i, frame);

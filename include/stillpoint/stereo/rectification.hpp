@@ -67,7 +67,7 @@ class StereoRectification {
       throw Error("stereo: found cameras of " + size_of(left) + " and " + size_of(right) +
                   " pixels, expected equal sizes");
     if (!right_from_left.matrix().allFinite())
-      throw Error("stereo: found a pose between the cameras that is not finite");
+      throw Error("stereo: found a pose between the cameras that is not finite, expected a rotation and a translation");
     // In the left camera's axes: where the right one stands.
     const Vector3d p_left = right_from_left.inverse().translation();
     if (!(p_left.x() > 0 && p_left.x() > std::abs(p_left.y()) && p_left.x() > std::abs(p_left.z())))

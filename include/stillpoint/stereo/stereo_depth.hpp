@@ -82,21 +82,20 @@ class StereoDepth {
                     std::to_string(image->cols) + " x " + std::to_string(image->rows) + " pixels and " +
                     std::to_string(image->channels()) + " channel(s), expected " + std::to_string(size_.width) + " x " +
                     std::to_string(size_.height) + ", gray");
-    const int disparities = matcher_->getNumDisparities();
-    // SGBM leaves out as many columns at the left border as it tries disparities: they are given to it.
-    cv::copyMakeBorder(left, padded_left_, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
-    cv::copyMakeBorder(right, padded_right_, 0, 0, disparities, 0, cv::BORDER_REPLICATE);
-    matcher_->compute(padded_left_, padded_right_, disparity_);
+    match(left, right, left_disparity_);
+    // The right image's disparities are those of the mirrored pair: what is left in it becomes right.
+    cv::flip(left, mirrored_left_, kSideways);
+    cv::flip(right, mirrored_right_, kSideways);
+    match(mirrored_right_, mirrored_left_, right_disparity_);
+
     depth_m.create(size_, CV_32FC1);
     const auto least = static_cast<float>(options_.least_disparity_px);
     const auto focal_times_baseline = static_cast<float>(noise_.focal_px * noise_.baseline_m);
     for (int v = 0; v < size_.height; ++v) {
-      const auto* const from = disparity_.ptr<std::int16_t>(v) + disparities;
       auto* const to = depth_m.ptr<float>(v);
       for (int u = 0; u < size_.width; ++u) {
-        const float disparity_px = static_cast<float>(from[u]) / cv::StereoMatcher::DISP_SCALE;
-        // To the left of the right image's border there is nothing to compare with.
-        const bool is_seen_twice = disparity_px >= least && disparity_px <= static_cast<float>(u);
+        const float disparity_px = in_pixels(left_disparity_, u, v);
+        const bool is_seen_twice = disparity_px >= least && agrees(disparity_px, u, v);
         to[u] = is_seen_twice ? focal_times_baseline / disparity_px : 0.0f;
       }
     }
@@ -110,11 +109,35 @@ class StereoDepth {
     if (!holds) throw Error(std::string("stereo: ") + name + " is " + std::to_string(found) + ", expected " + expected);
   }
 
+  static constexpr int kSideways = 1;  ///< for cv::flip
+
+  /// Disparities of `image`, whose partner shows everything further left, with `disparity_columns()` more at the left.
+  void match(const cv::Mat& image, const cv::Mat& partner, cv::Mat& disparity) {
+    // SGBM leaves out as many columns at the left border as it tries disparities: they are given to it.
+    cv::copyMakeBorder(image, padded_, 0, 0, disparity_columns(), 0, cv::BORDER_REPLICATE);
+    cv::copyMakeBorder(partner, padded_partner_, 0, 0, disparity_columns(), 0, cv::BORDER_REPLICATE);
+    matcher_->compute(padded_, padded_partner_, disparity);
+  }
+  int disparity_columns() const { return matcher_->getNumDisparities(); }
+
+  float in_pixels(const cv::Mat& disparity, int u, int v) const {
+    constexpr float kUnits = cv::StereoMatcher::DISP_SCALE;
+    return static_cast<float>(disparity.ptr<std::int16_t>(v)[u + disparity_columns()]) / kUnits;
+  }
+
+  /// Whether the right image leads back to where the left one led from: not so where one camera alone sees something.
+  bool agrees(float disparity_px, int u, int v) const {
+    const int there = cvRound(static_cast<float>(u) - disparity_px);
+    if (there < 0) return false;
+    const float back_px = in_pixels(right_disparity_, size_.width - 1 - there, v);
+    return std::abs(back_px - disparity_px) <= static_cast<float>(options_.left_right_px);
+  }
+
   Options options_;
   cv::Size size_;
   StereoNoise noise_;
   cv::Ptr<cv::StereoSGBM> matcher_;
-  cv::Mat padded_left_, padded_right_, disparity_;
+  cv::Mat padded_, padded_partner_, mirrored_left_, mirrored_right_, left_disparity_, right_disparity_;
 };
 
 }  // namespace stillpoint
