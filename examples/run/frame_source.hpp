@@ -60,7 +60,7 @@ class FrameSource {
   virtual const std::optional<stillpoint::Trajectory>& ground_truth() const = 0;
   virtual bool has_labels() const { return false; }
   virtual bool has_depth() const { return true; }
-  /// Of depth from a stereo pair; empty where the depth is another's.
+  /// Of depth from a stereo pair; empty where nobody knows its baseline.
   virtual std::optional<stillpoint::StereoNoise> stereo_noise() const { return std::nullopt; }
   /// What is taken for true because nobody said, one sentence each.
   virtual std::vector<std::string> assumptions() const { return {}; }
@@ -93,6 +93,13 @@ class TumSource : public FrameSource {
   const stillpoint::Camera& camera() const override { return sequence_.camera(); }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return sequence_.ground_truth(); }
   bool has_labels() const override { return sequence_.has_labels(); }
+  std::optional<stillpoint::StereoNoise> stereo_noise() const override {
+    if (!sequence_.baseline_m()) return std::nullopt;
+    stillpoint::StereoNoise noise;
+    noise.focal_px = camera().fx();
+    noise.baseline_m = *sequence_.baseline_m();
+    return noise;
+  }
 
   std::optional<SourceFrame> load(std::size_t index) override {
     if (index >= sequence_.frames().size()) return std::nullopt;

@@ -264,7 +264,7 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
   };
   const bool all_frames = options.frames == std::numeric_limits<int>::max();
   return {{"sequence", options.input_words()},
-          {"--camera", options.camera.empty() ? "the sequence's own" : options.camera.string()},
+          {"--camera", options.camera.empty() ? "not given" : options.camera.string()},
           {"--fps", options.frame_rate_hz > 0 ? shortest(options.frame_rate_hz) : "as the frames say"},
           {"--depth-noise", options.depth_noise},
           {"--policies", options.policies},

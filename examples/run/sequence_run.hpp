@@ -102,6 +102,10 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   run.has_labels = source.has_labels();
   run.has_depth = source.has_depth();
   run.assumptions = source.assumptions();
+  if (options.depth_noise == "stereo" && !source.stereo_noise())
+    run.assumptions.push_back(
+        "The depth's baseline is not known: " + stillpoint::format_fixed(stillpoint::StereoNoise{}.baseline_m, 2) +
+        " m is assumed (baseline_m in camera.yaml).");
   run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
   const auto class_name = [&detector](int index) { return detector.class_name(index); };
   FrameRecord record;

@@ -16,6 +16,7 @@
 
 #include "run_program.hpp"
 #include "small_euroc.hpp"
+#include "small_sequence.hpp"
 
 namespace system_test {
 namespace {
@@ -121,6 +122,16 @@ TEST_F(Inputs, EurocFolderThatIsBroken) {
   fs::remove(image);
   expect_named_error("--euroc " + quoted(euroc), {"cam1/data.csv:3", name, "expected an image that is there"});
   expect_named_error("--euroc " + quoted(folder / "nowhere"), {"nowhere", "expected the folder of a EuRoC sequence"});
+}
+
+TEST_F(Inputs, StereoDepthOfATumFolderHasTheBaselineOfItsCameraFile) {
+  const fs::path tum = folder / "tum";
+  write_small_sequence(tum, 2);
+  expect_run("--depth-noise stereo --tum " + quoted(tum));
+  EXPECT_TRUE(says("The depth's baseline is not known: 0.10 m is assumed")) << said;
+  write_text(tum / "camera.yaml", read_text(tum / "camera.yaml") + "baseline_m: 0.055\n");
+  expect_run("--depth-noise stereo --tum " + quoted(tum));
+  EXPECT_TRUE(report()["assumptions"].empty());
 }
 
 TEST_F(Inputs, RectifiedPairIsARunWithDepth) {

@@ -24,7 +24,8 @@ namespace stillpoint {
 /// A camera and the unit of its depth images.
 struct RgbdCamera {
   Camera camera;
-  double depth_factor = 5000.0;  ///< what a 16-bit depth image counts per metre
+  double depth_factor = 5000.0;                     ///< what a 16-bit depth image counts per metre
+  std::optional<double> baseline_m = std::nullopt;  ///< of depth from two cameras, where it is known
 };
 
 /// A camera without depth images, the left one of a rectified pair where there is a baseline.
@@ -160,28 +161,31 @@ inline Camera read_intrinsics(const CameraFields& fields) {
   return Camera(fx, fy, cx, cy, width, height, read_distortion(fields));
 }
 
+inline std::optional<double> read_baseline(const CameraFields& fields) {
+  if (!fields.has("baseline_m")) return std::nullopt;
+  return fields.positive("baseline_m", "the positive distance of the two cameras in metres");
+}
+
 }  // namespace detail
 
 /// Reads camera.yaml (OpenCV's FileStorage): `fx fy cx cy` in pixels, `width height`, `depth_factor`; optionally
 /// `model` (pinhole, brown_conrady with k1 k2 p1 p2 and optionally k3, or equidistant with k1 to k4; without it, p1
-/// means brown_conrady and no coefficient a pinhole).
+/// means brown_conrady and no coefficient a pinhole), and `baseline_m`, the distance in metres of the two cameras that
+/// the depth is from.
 /// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
 ///         three, or coefficients are given that the model does not have.
 inline RgbdCamera read_camera(const std::filesystem::path& file) {
   const detail::CameraFields fields(file);
   const Camera camera = detail::read_intrinsics(fields);
-  return {camera, fields.positive("depth_factor", "the positive number that a depth image counts per metre")};
+  return {camera, fields.positive("depth_factor", "the positive number that a depth image counts per metre"),
+          detail::read_baseline(fields)};
 }
 
-/// Reads the same file for images without depth: `depth_factor` may be missing and is not looked at; `baseline_m`, the
-/// distance in metres to the right camera of a rectified pair, may be there.
+/// Reads the same file for images without depth: `depth_factor` may be missing and is not looked at.
 /// @throws Error as `read_camera`, and for a baseline that is not positive.
 inline ImageCamera read_image_camera(const std::filesystem::path& file) {
   const detail::CameraFields fields(file);
-  ImageCamera result{detail::read_intrinsics(fields), std::nullopt};
-  if (fields.has("baseline_m"))
-    result.baseline_m = fields.positive("baseline_m", "the positive distance of the two cameras in metres");
-  return result;
+  return {detail::read_intrinsics(fields), detail::read_baseline(fields)};
 }
 
 /// The camera of an original folder of the TUM RGB-D benchmark, told by `freiburg1`, `freiburg2` or `freiburg3` in the

@@ -51,6 +51,8 @@ class TumSequence {
   const std::vector<TumFrame>& frames() const { return frames_; }
   const Camera& camera() const { return camera_.camera; }
   double depth_factor() const { return camera_.depth_factor; }
+  /// Of the two cameras that the depth is from; empty where the camera's file does not say.
+  std::optional<double> baseline_m() const { return camera_.baseline_m; }
 
   /// Reference poses, world_from_camera; empty where the folder has none.
   const std::optional<Trajectory>& ground_truth() const { return ground_truth_; }

@@ -151,6 +151,8 @@ TEST(ReadImageCamera, NeedsNoDepthFactorAndTakesABaseline) {
   EXPECT_EQ(read({{"depth_factor", ""}}).camera.cy(), 240.25);
   EXPECT_FALSE(read({}).baseline_m);
   EXPECT_EQ(read({{"baseline_m", "0.12"}}).baseline_m, 0.12);
+  EXPECT_EQ(camera_of({{"baseline_m", "0.12"}}).baseline_m, 0.12);
+  EXPECT_FALSE(camera_of({}).baseline_m);
   const std::string where = (folder.path() / "camera.yaml").string() + ": ";
   EXPECT_EQ(error_of([&] {
               read({{"baseline_m", "-0.1"}});
