@@ -24,6 +24,8 @@
 #include "run/figures.hpp"
 #include "run/filters.hpp"
 #include "run/frame_source.hpp"
+#include "run/interrupt.hpp"
+#include "run/open_source.hpp"
 #include "run/options.hpp"
 #include "run/options_json.hpp"
 #include "run/overlay.hpp"
@@ -74,6 +76,7 @@ void calibrate_camera(const Options& options, FrameSource& source) {
 void run(const Options& options) {
   cv::setNumThreads(options.threads);
   const std::unique_ptr<FrameSource> source = open_source(options);
+  catch_interrupt();
   if (options.calibrate) return calibrate_camera(options, *source);
   const std::unique_ptr<DetectionFeed> detector = open_feed(options);
   make_folder(options.out);
@@ -83,7 +86,7 @@ void run(const Options& options) {
 
   std::string yaml;
   nlohmann::ordered_json stages;
-  const RunRecord record = with_filter(options, source->camera(), [&](auto filter) {
+  const RunRecord record = with_filter(options, *source, [&](auto filter) {
     describe(filter, yaml, stages);
     return with_backend(options, source->camera(), [&](auto&& make_tracker) {
       return run_frames(options, *source, *detector, std::move(filter), make_tracker(), make_tracker(),

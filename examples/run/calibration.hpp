@@ -8,12 +8,14 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "backends.hpp"
 #include "filters.hpp"
 #include "frame_source.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "sequence_run.hpp"
@@ -68,20 +70,23 @@ void take_over(const stillpoint::CalibratedNoise& noise, stillpoint::FrameFilter
 inline CalibrationRecord calibrate(const Options& options, FrameSource& source) {
   constexpr std::size_t kFewestFrames = 30;
   constexpr double kMostDropped = 0.1;  // ten times the rate that standing features are dropped with
-  auto filter = detail::default_filter<CalibratingPolicies>(options, source.camera());
+  auto filter = detail::default_filter<CalibratingPolicies>(options, source);
   stillpoint::NoiseCalibration calibration;
   filter.prior.calibration = &calibration;
   NoTracker extractor(options.features);
-  const std::size_t first = static_cast<std::size_t>(options.start), count = frame_count(options, source);
+  const auto first = static_cast<std::size_t>(options.start);
+  const std::optional<std::size_t> count = frame_count(options, source);
   Progress progress(count, options.quiet);
   std::size_t features = 0, dropped = 0;
-  for (std::size_t i = first; i < first + count; ++i) {
-    const SourceFrame frame = source.load(i);
-    const auto extracted = extractor.extract(frame.view());
-    const stillpoint::FrameResult& result = filter.filter_frame(frame.view(), extracted.keypoints);
+  for (std::size_t i = first; !count || i < first + *count; ++i) {
+    const std::optional<SourceFrame> frame = source.load(i);
+    if (!frame) break;
+    const auto extracted = extractor.extract(frame->view());
+    const stillpoint::FrameResult& result = filter.filter_frame(frame->view(), extracted.keypoints);
     features += result.size();
     dropped += result.size() - result.kept_count();
     progress.frame_done();
+    if (was_interrupted()) break;  // what was seen until then counts
   }
 
   CalibrationRecord record;

@@ -26,7 +26,9 @@ namespace stillpoint_run {
 struct RunRecord {
   std::string sequence;
   std::vector<FrameSummary> frames;
-  bool has_backend = false, has_stages = false, has_labels = false;
+  bool has_backend = false, has_stages = false, has_labels = false, has_depth = true;
+  bool was_interrupted = false;
+  std::vector<std::string> assumptions;         ///< of the source, where nobody told it
   stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame
   std::optional<stillpoint::Trajectory> ground_truth;
   std::optional<DetectorRecord> detector;  ///< empty where no network ran

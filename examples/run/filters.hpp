@@ -25,11 +25,11 @@ namespace stillpoint_run {
 
 namespace detail {
 
-inline stillpoint::AnyDepthNoise depth_noise(const Options& options, const stillpoint::Camera& camera) {
+inline stillpoint::AnyDepthNoise depth_noise(const Options& options, const FrameSource& source) {
   if (options.depth_noise == "stereo") {
     stillpoint::StereoNoise stereo;
-    stereo.focal_px = camera.fx();
-    return stereo;
+    stereo.focal_px = source.camera().fx();
+    return source.stereo_noise().value_or(stereo);
   }
   if (options.depth_noise == "tof") return stillpoint::TimeOfFlightNoise{};
   return stillpoint::KinectNoise{};
@@ -49,9 +49,9 @@ stillpoint::FrameFilter<Policies> make_filter(const Options& options, const stil
 }
 
 template <class Policies>
-stillpoint::FrameFilter<Policies> paper_filter(const Options& options, const stillpoint::Camera& camera) {
-  return make_filter<Policies>(options, camera, [&](auto& filter, const auto& says) {
-    if (says("--depth-noise")) filter.depth_noise = depth_noise(options, camera);
+stillpoint::FrameFilter<Policies> paper_filter(const Options& options, const FrameSource& source) {
+  return make_filter<Policies>(options, source.camera(), [&](auto& filter, const auto& says) {
+    if (says("--depth-noise")) filter.depth_noise = depth_noise(options, source);
     if (says("--seed")) filter.ego_motion.options.seed = filter.classifier.options.seed = options.seed;
     if (!says("--paper-as-printed")) return;
     filter.scorer.options.printed_eq8 = options.prints_error("eq8");
@@ -69,9 +69,9 @@ inline SwitchedMotion::Kind motion_kind(const std::string& name) {
 }
 
 template <class Policies>
-stillpoint::FrameFilter<Policies> default_filter(const Options& options, const stillpoint::Camera& camera) {
-  auto filter = make_filter<Policies>(options, camera, [&](auto& set, const auto& says) {
-    if (says("--depth-noise")) set.depth_noise = depth_noise(options, camera);
+stillpoint::FrameFilter<Policies> default_filter(const Options& options, const FrameSource& source) {
+  auto filter = make_filter<Policies>(options, source.camera(), [&](auto& set, const auto& says) {
+    if (says("--depth-noise")) set.depth_noise = depth_noise(options, source);
     if (says("--false-positive-rate")) set.gate.options.false_positive_rate = options.false_positive_rate;
     if (says("--seed")) support_motion(set.ego_motion).options.seed = set.classifier.options.seed = options.seed;
   });
@@ -83,22 +83,32 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const s
   return filter;
 }
 
+template <class Policies>
+stillpoint::FrameFilter<Policies> monocular_filter(const Options& options, const FrameSource& source) {
+  return make_filter<Policies>(options, source.camera(), [&](auto& set, const auto& says) {
+    if (says("--false-positive-rate")) set.gate.options.false_positive_rate = options.false_positive_rate;
+    if (says("--seed")) set.ego_motion.options.seed = options.seed;
+  });
+}
+
 }  // namespace detail
 
 /// Calls `use(filter)` with the filter that the options name. A further policy set is a further line.
 template <class Use>
-decltype(auto) with_filter(const Options& options, const stillpoint::Camera& camera, Use&& use) {
+decltype(auto) with_filter(const Options& options, const FrameSource& source, Use&& use) {
   using stillpoint::DefaultPolicies;
   using stillpoint::PaperPolicies;
   using stillpoint::PaperRigidPolicies;
   if (options.prior == "labels") return use(examples::OracleFilter{});
   if (options.policies == "default") {
     if (options.ego_motion != "default" || options.without.needs_other_stages())
-      return use(detail::default_filter<Watched<SwitchedPolicies>>(options, camera));
-    return use(detail::default_filter<Watched<DefaultPolicies>>(options, camera));
+      return use(detail::default_filter<Watched<SwitchedPolicies>>(options, source));
+    return use(detail::default_filter<Watched<DefaultPolicies>>(options, source));
   }
-  if (options.ego_motion == "rigid") return use(detail::paper_filter<Watched<PaperRigidPolicies>>(options, camera));
-  return use(detail::paper_filter<Watched<PaperPolicies>>(options, camera));
+  if (options.policies == "monocular")
+    return use(detail::monocular_filter<Watched<stillpoint::MonocularPolicies>>(options, source));
+  if (options.ego_motion == "rigid") return use(detail::paper_filter<Watched<PaperRigidPolicies>>(options, source));
+  return use(detail::paper_filter<Watched<PaperPolicies>>(options, source));
 }
 
 /// Tells a filter what is known of the coming frame before it looks.

@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where the frames come from: a folder, or the synthetic scene.
+// Where the frames come from: what all sources have in common, a folder with depth, and the synthetic scene.
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <cstddef>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -17,6 +16,7 @@
 
 #include "options.hpp"
 #include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/io/boxes_file.hpp"
@@ -31,9 +31,9 @@ namespace stillpoint_run {
 /// One frame and all that is known of it. Owns its images.
 struct SourceFrame {
   double timestamp_s = 0.0;
-  cv::Mat gray, colour;  ///< CV_8UC1 and CV_8UC3
-  cv::Mat depth;         ///< CV_16UC1
-  double depth_factor = 5000.0;
+  cv::Mat gray, colour;                        ///< CV_8UC1 and CV_8UC3
+  cv::Mat depth;                               ///< CV_16UC1, or CV_32FC1 in metres; empty where there is none
+  double depth_factor = 5000.0;                ///< of a 16-bit depth
   cv::Mat labels;                              ///< CV_8UC1, values of PixelLabel; empty where there are none
   std::vector<stillpoint::DetectedBox> boxes;  ///< empty unless the run's prior asks for them
 
@@ -53,14 +53,31 @@ class FrameSource {
   virtual ~FrameSource() = default;
 
   virtual std::string name() const = 0;
-  virtual std::size_t size() const = 0;
+  /// Empty where only the end tells.
+  virtual std::optional<std::size_t> size() const = 0;
   virtual const stillpoint::Camera& camera() const = 0;
   /// world_from_camera; empty where nobody knows.
   virtual const std::optional<stillpoint::Trajectory>& ground_truth() const = 0;
-  virtual bool has_labels() const = 0;
+  virtual bool has_labels() const { return false; }
+  virtual bool has_depth() const { return true; }
+  /// Of depth from a stereo pair; empty where nobody knows its baseline.
+  virtual std::optional<stillpoint::StereoNoise> stereo_noise() const { return std::nullopt; }
+  /// What is taken for true because nobody said, one sentence each.
+  virtual std::vector<std::string> assumptions() const { return {}; }
+  /// Nothing behind the last frame. Indices must rise from call to call.
   /// @throws stillpoint::Error where a file of the frame can't be read.
-  virtual SourceFrame load(std::size_t index) = 0;
+  virtual std::optional<SourceFrame> load(std::size_t index) = 0;
 };
+
+/// Of a source whose camera's path nobody knows.
+inline const std::optional<stillpoint::Trajectory> kNoGroundTruth;
+
+/// The last part of a path, however it is written.
+inline std::string last_name(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto whole = std::filesystem::absolute(path, ignored).lexically_normal();
+  return (whole.has_filename() ? whole : whole.parent_path()).filename().string();
+}
 
 /// A folder in the layout of the TUM benchmark.
 class TumSource : public FrameSource {
@@ -71,17 +88,21 @@ class TumSource : public FrameSource {
     if (options.prior == "boxes") boxes_ = stillpoint::read_boxes(options.tum / "boxes.txt");
   }
 
-  std::string name() const override {
-    std::error_code ignored;
-    const auto folder = std::filesystem::absolute(sequence_.folder(), ignored).lexically_normal();
-    return (folder.has_filename() ? folder : folder.parent_path()).filename().string();
-  }
-  std::size_t size() const override { return sequence_.frames().size(); }
+  std::string name() const override { return last_name(sequence_.folder()); }
+  std::optional<std::size_t> size() const override { return sequence_.frames().size(); }
   const stillpoint::Camera& camera() const override { return sequence_.camera(); }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return sequence_.ground_truth(); }
   bool has_labels() const override { return sequence_.has_labels(); }
+  std::optional<stillpoint::StereoNoise> stereo_noise() const override {
+    if (!sequence_.baseline_m()) return std::nullopt;
+    stillpoint::StereoNoise noise;
+    noise.focal_px = camera().fx();
+    noise.baseline_m = *sequence_.baseline_m();
+    return noise;
+  }
 
-  SourceFrame load(std::size_t index) override {
+  std::optional<SourceFrame> load(std::size_t index) override {
+    if (index >= sequence_.frames().size()) return std::nullopt;
     stillpoint::RgbdImages images = sequence_.load(index);
     SourceFrame frame;
     frame.timestamp_s = sequence_.frames()[index].timestamp_s;
@@ -124,12 +145,13 @@ class DemoSource : public FrameSource {
       : sequence_(stillpoint::synthetic::demo()), wants_boxes_(options.prior == "boxes"), ground_truth_(true_path()) {}
 
   std::string name() const override { return "demo"; }
-  std::size_t size() const override { return static_cast<std::size_t>(sequence_.size()); }
+  std::optional<std::size_t> size() const override { return static_cast<std::size_t>(sequence_.size()); }
   const stillpoint::Camera& camera() const override { return sequence_.camera(); }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return ground_truth_; }
   bool has_labels() const override { return true; }
 
-  SourceFrame load(std::size_t index) override {
+  std::optional<SourceFrame> load(std::size_t index) override {
+    if (index >= static_cast<std::size_t>(sequence_.size())) return std::nullopt;
     sequence_.render(static_cast<int>(index), rendered_);
     return source_frame(rendered_, wants_boxes_);
   }
@@ -148,22 +170,5 @@ class DemoSource : public FrameSource {
   bool wants_boxes_;
   std::optional<stillpoint::Trajectory> ground_truth_;
 };
-
-/// Opens what the options name.
-/// @throws stillpoint::Error where it can't be read, or lacks what the options ask of it.
-inline std::unique_ptr<FrameSource> open_source(const Options& options) {
-  std::unique_ptr<FrameSource> source;
-  if (options.demo)
-    source = std::make_unique<DemoSource>(options);
-  else
-    source = std::make_unique<TumSource>(options);
-  if (static_cast<std::size_t>(options.start) >= source->size())
-    throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than " +
-                            std::to_string(source->size()) + ", the number of frames of " + source->name());
-  if (options.prior == "labels" && !source->has_labels())
-    throw stillpoint::Error("--prior: found labels, but " + source->name() +
-                            " has none; expected a folder with label images in labels/");
-  return source;
-}
 
 }  // namespace stillpoint_run

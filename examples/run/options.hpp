@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "corrections.hpp"
+#include "input_options.hpp"
+#include "option_checks.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/detectors/layout.hpp"
@@ -26,11 +28,8 @@
 namespace stillpoint_run {
 
 /// What a run was asked for, as it was given; `parse_options` has checked each value.
-struct Options {
-  bool demo = false;
-  std::filesystem::path tum;
+struct Options : InputOptions {
   std::filesystem::path out = "stillpoint_out";
-  std::filesystem::path camera;  ///< empty: the sequence's own
   std::filesystem::path stages;  ///< options of the filter's stages; empty: as they come
   bool calibrate = false;        ///< measures noise and writes options, in place of a run
   std::string depth_noise = "kinect";
@@ -70,56 +69,6 @@ struct Options {
 struct NothingToRun {};
 
 namespace detail {
-
-/// One of a few words; `list` names them.
-inline CLI::Validator one_of(std::vector<std::string> words, const std::string& list) {
-  return CLI::Validator(
-      [words = std::move(words), list](std::string& value) {
-        for (const std::string& word : words)
-          if (word == value) return std::string();
-        return "found '" + value + "', expected " + (words.size() > 1 ? "one of " : "") + list;
-      },
-      "");
-}
-
-/// An option that takes one of a few words.
-inline CLI::Option* add_choice(CLI::App& app, const char* name, std::string& value, std::vector<std::string> words,
-                               const char* help) {
-  std::string types, list;
-  for (const std::string& word : words) {
-    types += (types.empty() ? "" : "|") + word;
-    list += (list.empty() ? "" : ", ") + word;
-  }
-  return app.add_option(name, value, help)->type_name(types)->check(one_of(std::move(words), list));
-}
-
-/// A whole number in a range, with nothing behind it.
-template <class Integer>
-CLI::Validator whole_number(Integer least, Integer most) {
-  return CLI::Validator(
-      [least, most](std::string& text) {
-        Integer value{};
-        const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool is_number = result.ec == std::errc() && result.ptr == text.data() + text.size();
-        if (is_number && value >= least && value <= most) return std::string();
-        return "found '" + text + "', expected a whole number from " + std::to_string(least) + " to " +
-               std::to_string(most);
-      },
-      "");
-}
-
-/// A number in a range, with nothing behind it.
-inline CLI::Validator number(double least, double most, const char* range) {
-  return CLI::Validator(
-      [least, most, range](std::string& text) {
-        double value = 0;
-        const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool is_number = result.ec == std::errc() && result.ptr == text.data() + text.size();
-        if (is_number && value >= least && value <= most) return std::string();
-        return "found '" + text + "', expected a number from " + range;
-      },
-      "");
-}
 
 /// The corrections' names, and for --help what each is.
 inline std::vector<std::string> correction_names() {
@@ -168,24 +117,18 @@ inline CLI::Validator layout() {
       "");
 }
 
-inline CLI::Validator not_empty() {
-  return CLI::Validator(
-      [](std::string& text) { return text.empty() ? std::string("found nothing, expected a path") : std::string(); },
-      "");
-}
-
 /// What no single option can know.
 inline void require_consistent(const CLI::App& app, const Options& options) {
   const auto given = [&app](const char* name) { return app.count(name) > 0; };
-  if (options.demo == given("--tum"))
-    throw stillpoint::Error(options.demo ? "found --demo and --tum, expected one of them"
-                                         : "found no sequence, expected --demo or --tum FOLDER");
-  if (options.demo && given("--camera"))
-    throw stillpoint::Error("--camera: found with --demo, whose camera is known; expected it with --tum");
+  require_one_input(app, options);
   const std::string only_default = ": found with --policies paper, expected it with --policies default, whose it is";
   if (options.policies == "paper")
     for (const char* name : {"--false-positive-rate", "--without"})
       if (given(name)) throw stillpoint::Error(name + only_default);
+  if (options.policies == "monocular")
+    for (const char* name : {"--ego-motion", "--paper-as-printed", "--depth-noise", "--without"})
+      if (given(name))
+        throw stillpoint::Error(std::string(name) + ": found with --policies monocular, which has no such choice");
   if (options.policies == "default" && given("--paper-as-printed"))
     throw stillpoint::Error(
         "--paper-as-printed: found with --policies default, which makes none of these errors; expected it with "
@@ -202,6 +145,9 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
       if (options.prints_error(name))
         throw stillpoint::Error("--paper-as-printed: found " + std::string(name) +
                                 " with --ego-motion rigid, expected --ego-motion epipolar, whose printed error it is");
+  if (options.prior == "boxes" && !options.demo && options.tum.empty())
+    throw stillpoint::Error("--prior: found boxes with " + options.input_words() +
+                            ", expected none or MODEL; boxes.txt belongs to --tum");
   if (options.prior != "boxes" && given("--drop-boxes"))
     throw stillpoint::Error("--drop-boxes: found without boxes, expected --prior boxes");
   if (options.prior != "boxes" && !options.has_network() && given("--detect-every"))
@@ -241,11 +187,8 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   const auto add_number = [&app](const char* name, auto& number, auto least, auto greatest, const char* help) {
     return app.add_option(name, number, help)->type_name("N")->check(detail::whole_number(least, greatest));
   };
-  app.add_flag("--demo", options.demo, "a synthetic scene, rendered in memory");
-  add_path("--tum", "FOLDER", options.tum, "a sequence in the layout of the TUM RGB-D benchmark")->default_str("");
+  detail::add_input_options(app, options);
   add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
-  add_path("--camera", "FILE", options.camera, "the camera, where the folder has no camera.yaml or another is wanted")
-      ->default_str("");
   add_path(
       "--options", "FILE", options.stages,
       "options of the filter's stages, as an earlier run or --calibrate left them in options.yaml; what is said here "
@@ -255,9 +198,13 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
       "--calibrate", options.calibrate,
       "measures the noise of pixels and depths on a scene in which nothing moves, and writes OUT/options.yaml, in "
       "place of a run");
-  detail::add_choice(app, "--depth-noise", options.depth_noise, {"kinect", "stereo", "tof"}, "how wrong the depth is");
-  detail::add_choice(app, "--policies", options.policies, {"default", "paper"},
-                     "which set of stages: the corrected method or the paper's");
+  const CLI::Option* depth_noise =
+      detail::add_choice(app, "--depth-noise", options.depth_noise, {"kinect", "stereo", "tof"},
+                         "how wrong the depth is; stereo pairs: stereo unless told");
+  const CLI::Option* policies = detail::add_choice(
+      app, "--policies", options.policies, {"default", "paper", "monocular"},
+      "which set of stages: the corrected method, the paper's, or one without depth; images without depth: monocular "
+      "unless told");
   detail::add_choice(app, "--ego-motion", options.ego_motion, {"default", "rigid", "epipolar"},
                      "how the camera's motion is found; default is what the policies take: by area and trust for the "
                      "default ones, epipolar for the paper's");
@@ -301,7 +248,8 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   app.add_option("--drop-boxes", options.drop_boxes, "share of the boxes that is left out at random, by --seed")
       ->type_name("SHARE")
       ->check(detail::number(0.0, 1.0, "0 to 1"));
-  detail::add_choice(app, "--backend", options.backend, {"odometry", "none"}, "the tracker behind the filter");
+  const CLI::Option* backend = detail::add_choice(app, "--backend", options.backend, {"odometry", "none"},
+                                                  "the tracker behind the filter; without depth: none unless told");
   add_number("--features", options.features, 1, 100000, "ORB features a frame");
   add_number("--start", options.start, 0, most, "first frame, counted from 0");
   add_number("--frames", options.frames, 1, most, "frames at most")->default_str("all");
@@ -322,6 +270,9 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   for (const CLI::Option* option : app.get_options())
     if (option->count() > 0) options.given.push_back("--" + option->get_lnames().front());
   detail::require_consistent(app, options);
+  if (options.has_stereo() && depth_noise->empty()) options.depth_noise = "stereo";
+  if (!options.has_depth() && policies->empty()) options.policies = "monocular";
+  if (!options.has_depth() && backend->empty()) options.backend = "none";  // ours takes depth
   // The paper tests features in boxes only: without them its demo would have nothing to show.
   if (options.demo && options.policies == "paper" && prior->empty()) options.prior = "boxes";
   return options;
@@ -340,8 +291,9 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
     return std::string(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
   };
   const bool all_frames = options.frames == std::numeric_limits<int>::max();
-  return {{"sequence", options.demo ? "--demo" : "--tum " + options.tum.string()},
-          {"--camera", options.camera.empty() ? "the sequence's own" : options.camera.string()},
+  return {{"sequence", options.input_words()},
+          {"--camera", options.camera.empty() ? "not given" : options.camera.string()},
+          {"--fps", options.frame_rate_hz > 0 ? shortest(options.frame_rate_hz) : "as the frames say"},
           {"--options", options.stages.empty() ? "as they come" : options.stages.string()},
           {"--depth-noise", options.depth_noise},
           {"--policies", options.policies},

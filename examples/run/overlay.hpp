@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <deque>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -174,14 +175,16 @@ inline cv::Mat draw_overlay(const SourceFrame& frame, const FrameRecord& record,
   return image;
 }
 
-/// Chooses a dozen frames, evenly over the run and the last among them, and keeps them drawn.
+/// Chooses a dozen frames, evenly over the run and the last among them, and keeps them drawn. Of a run whose end is not
+/// known: every second of them is given up when there are two dozen.
 class Gallery {
  public:
-  explicit Gallery(std::size_t frame_count) : frame_count_(frame_count) {}
+  explicit Gallery(std::optional<std::size_t> frame_count) : frame_count_(frame_count) {}
 
   /// Call it for each frame, in their order.
   void show(const SourceFrame& frame, const FrameRecord& record, const stillpoint::Camera& camera) {
     constexpr int kJpegQuality = 82;
+    if (!frame_count_ && overlays_.size() == 2 * kPictures) give_up_every_second();
     if (is_chosen(next_++)) {
       Overlay overlay;
       cv::imencode(".jpg", draw_overlay(frame, record, offsets_.of(frame, record, camera)), overlay.jpeg,
@@ -198,13 +201,22 @@ class Gallery {
   const std::vector<Overlay>& overlays() const { return overlays_; }
 
  private:
-  /// The last frame of each twelfth of the run.
+  static constexpr std::size_t kPictures = 12;
+
+  /// The last frame of each twelfth of the run, or of every so many frames.
   bool is_chosen(std::size_t frame) const {
-    constexpr std::size_t kPictures = 12;
-    return (frame + 1) * kPictures / frame_count_ > frame * kPictures / frame_count_;
+    if (!frame_count_) return (frame + 1) % every_ == 0;
+    return (frame + 1) * kPictures / *frame_count_ > frame * kPictures / *frame_count_;
   }
 
-  std::size_t frame_count_, next_ = 0;
+  void give_up_every_second() {
+    for (std::size_t i = 0; i < kPictures; ++i) overlays_[i] = std::move(overlays_[2 * i + 1]);
+    overlays_.resize(kPictures);
+    every_ *= 2;
+  }
+
+  std::optional<std::size_t> frame_count_;
+  std::size_t every_ = 1, next_ = 0;
   ImageOffsets offsets_;
   std::vector<Overlay> overlays_;
 };

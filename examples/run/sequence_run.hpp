@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@
 #include "frame_clock.hpp"
 #include "frame_record.hpp"
 #include "frame_source.hpp"
+#include "interrupt.hpp"
 #include "options.hpp"
 #include "overlay.hpp"
 #include "progress.hpp"
@@ -80,13 +83,17 @@ struct RunOutput {
   Gallery& gallery;
 };
 
-/// How many frames the options ask for.
-inline std::size_t frame_count(const Options& options, const FrameSource& source) {
-  return std::min(source.size() - static_cast<std::size_t>(options.start), static_cast<std::size_t>(options.frames));
+/// How many frames the options ask for; empty where only the source's end tells.
+inline std::optional<std::size_t> frame_count(const Options& options, const FrameSource& source) {
+  const std::optional<std::size_t> size = source.size();
+  if (!size && options.frames == std::numeric_limits<int>::max()) return std::nullopt;
+  const auto most = static_cast<std::size_t>(options.frames);
+  return size ? std::min(*size - static_cast<std::size_t>(options.start), most) : most;
 }
 
-/// Runs the frames that the options ask for; beside a network in a thread of its own no faster than they were taken.
-/// @throws stillpoint::Error where a frame can't be read or a row not written.
+/// Runs the frames that the options ask for, or fewer where the source ends or Ctrl-C is pressed; beside a network in a
+/// thread of its own no faster than they were taken.
+/// @throws stillpoint::Error where a frame can't be read or a row not written, or there is none.
 template <class Filter, class Backend>
 RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed& detector, Filter a_filter,
                      Backend behind_filter, Backend unfiltered_backend, const RunOutput& output) {
@@ -95,7 +102,8 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));
   const bool is_paced = options.has_network() && !options.is_synchronous;
   FrameClock clock;
-  const std::size_t count = frame_count(options, source), first = static_cast<std::size_t>(options.start);
+  const std::optional<std::size_t> count = frame_count(options, source);
+  const auto first = static_cast<std::size_t>(options.start);
   Progress progress(count, options.quiet);
 
   RunRecord run;
@@ -103,13 +111,21 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   run.ground_truth = source.ground_truth();
   run.has_backend = options.backend != "none";
   run.has_labels = source.has_labels();
+  run.has_depth = source.has_depth();
+  run.assumptions = source.assumptions();
+  if (options.depth_noise == "stereo" && !source.stereo_noise())
+    run.assumptions.push_back(
+        "The depth's baseline is not known: " + stillpoint::format_fixed(stillpoint::StereoNoise{}.baseline_m, 2) +
+        " m is assumed (baseline_m in camera.yaml).");
   run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
   const auto class_name = [&detector](int index) { return detector.class_name(index); };
   FrameRecord record;
   stillpoint::ImageBuffer predicted_mask;
   std::vector<std::uint8_t> under_no_mask;
-  for (std::size_t i = first; i < first + count; ++i) {
-    const SourceFrame frame = source.load(i);
+  for (std::size_t i = first; !count || i < first + *count; ++i) {
+    const std::optional<SourceFrame> loaded = source.load(i);
+    if (!loaded) break;
+    const SourceFrame& frame = *loaded;
     const stillpoint::FrameView view = frame.view();
     if (is_paced) clock.wait_for(frame.timestamp_s);
     prepare(filtered.filter, frame, detector.next(frame));
@@ -136,7 +152,12 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     output.gallery.show(frame, record, source.camera());
     run.frames.push_back(record.summary);
     progress.frame_done();
+    run.was_interrupted = was_interrupted();
+    if (run.was_interrupted) break;
   }
+  if (run.frames.empty())
+    throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than the number of " +
+                            "frames of " + run.sequence);
   run.detector = detector.finish();
   detail::begin_at_identity(run.filtered);
   detail::begin_at_identity(run.unfiltered);

@@ -99,6 +99,8 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
                                 (is_oracle ? ", as the labels say." : " as moving or not to be trusted.");
   result.push_back(first);
   result.push_back(detail::trajectory_words(run, figures));
+  for (const std::string& assumption : run.assumptions) result.push_back(assumption);
+  if (run.was_interrupted) result.push_back("It was interrupted: later frames were not looked at.");
   const std::string labels = detail::label_words(run);
   if (!labels.empty()) result.push_back(labels);
   if (run.detector) result.push_back(detail::detector_words(options, *run.detector, figures));
@@ -108,7 +110,8 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
         "a network it drops nothing.");
   if (const std::size_t unjudged = detail::unjudged_frames(run); unjudged > 0)
     result.push_back(count_words(unjudged, "frame") + " after the first could not be judged, and all features of " +
-                     (unjudged == 1 ? "it" : "them") + " were kept.");
+                     (unjudged == 1 ? "it" : "them") + " were kept" +
+                     (run.has_depth ? "." : ": they have no depth, which --policies " + options.policies + " needs."));
   if (figures.filtered.frames_without_pose.value_or(0) > 0)
     result.push_back(count_words(*figures.filtered.frames_without_pose, "frame") + " got no pose with the filter, " +
                      std::to_string(figures.unfiltered.frames_without_pose.value_or(0)) + " without it.");

@@ -75,6 +75,7 @@ struct DefaultPolicies {
 /// For one camera without depth. Verdicts are by epipolar geometry between neighbouring frames and add up over time:
 /// what moves along its epipolar line is not found, unless a detector's box covers it. Nothing is in metres.
 struct MonocularPolicies : DefaultPolicies {
+  using DepthLookup = NoDepth;
   using Matcher = LucasKanade;
   using EgoMotion = MonocularMotion;
   using Scorer = SampsonScore;

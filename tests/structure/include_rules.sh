@@ -25,7 +25,7 @@ allowed() {
     prior | match | motion | score | gate | cluster | memory | verdict)
       rule='a stage includes core/, its own folder and OpenCV (opencv.hpp), never another stage'
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
-    evaluation | synthetic) rule="$folder/ includes core/, its own folder and OpenCV"
+    evaluation | stereo | synthetic) rule="$folder/ includes core/, its own folder and OpenCV"
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
     io) rule='io/ includes core/, evaluation/ (trajectories), its own folder and OpenCV'
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;

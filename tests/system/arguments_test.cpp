@@ -18,6 +18,11 @@ TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
   EXPECT_EQ(outcome.status, 0);
   for (const char* name : {"--demo",
                            "--tum",
+                           "--euroc",
+                           "--images",
+                           "--right",
+                           "--video",
+                           "--fps",
                            "--out",
                            "--camera",
                            "--depth-noise",
@@ -40,8 +45,7 @@ TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
                            "--threads",
                            "--quiet"})
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
-  for (const char* later : {"klt", "--euroc", "--images", "--video"})
-    EXPECT_EQ(outcome.out.find(later), std::string::npos) << later;
+  for (const char* later : {"klt"}) EXPECT_EQ(outcome.out.find(later), std::string::npos) << later;
 }
 
 TEST(StillpointRunArguments, VersionIsTheLibrarys) {

@@ -102,6 +102,8 @@ void expect_report(const Json& report, int frame_count) {
                                       "prior",
                                       "detector",
                                       "frames",
+                                      "interrupted",
+                                      "assumptions",
                                       "features_per_frame",
                                       "kept_share",
                                       "statuses",

@@ -29,6 +29,11 @@ struct DepthScale {
   }
 };
 
+/// No depth, whatever the frame has: for policies that need none.
+struct NoDepth {
+  double at(const DepthView&, const Vector2f&) const noexcept { return 0.0; }
+};
+
 /// The paper's: depth at the rounded pixel, whatever its neighbours say.
 struct RoundedDepth {
   /// @return metres, 0 where there is none or the pixel is outside.

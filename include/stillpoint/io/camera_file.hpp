@@ -4,12 +4,20 @@
 
 // The camera of a sequence: from camera.yaml, or for an original folder of the TUM benchmark from the folder's name.
 
+#include <opencv2/core.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/distortion.hpp"
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/yaml_file.hpp"
 
 namespace stillpoint {
@@ -17,7 +25,14 @@ namespace stillpoint {
 /// A camera and the unit of its depth images.
 struct RgbdCamera {
   Camera camera;
-  double depth_factor = 5000.0;  ///< what a 16-bit depth image counts per metre
+  double depth_factor = 5000.0;                     ///< what a 16-bit depth image counts per metre
+  std::optional<double> baseline_m = std::nullopt;  ///< of depth from two cameras, where it is known
+};
+
+/// A camera without depth images, the left one of a rectified pair where there is a baseline.
+struct ImageCamera {
+  Camera camera;
+  std::optional<double> baseline_m;  ///< from the left camera to the right one
 };
 
 namespace detail {
@@ -56,15 +71,8 @@ inline AnyDistortion read_distortion(const YamlFile& fields) {
   fields.fail("model", "is '" + model + "'", kModels);
 }
 
-}  // namespace detail
-
-/// Reads camera.yaml (OpenCV's FileStorage): `fx fy cx cy` in pixels, `width height`, `depth_factor`; optionally
-/// `model` (pinhole, brown_conrady with k1 k2 p1 p2 and optionally k3, or equidistant with k1 to k4; without it, p1
-/// means brown_conrady and no coefficient a pinhole).
-/// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
-///         three, or coefficients are given that the model does not have.
-inline RgbdCamera read_camera(const std::filesystem::path& file) {
-  const YamlFile fields(file);
+/// `fx fy cx cy width height` and the lens.
+inline Camera read_intrinsics(const YamlFile& fields) {
   const char* const focal_length = "a positive focal length in pixels";
   const char* const principal_point = "a finite principal point in pixels";
   const double fx = fields.positive("fx", focal_length);
@@ -73,9 +81,34 @@ inline RgbdCamera read_camera(const std::filesystem::path& file) {
   const double cy = fields.number("cy", principal_point);
   const int width = fields.size("width");
   const int height = fields.size("height");
-  const double depth_factor =
-      fields.positive("depth_factor", "the positive number that a depth image counts per metre");
-  return {Camera(fx, fy, cx, cy, width, height, detail::read_distortion(fields)), depth_factor};
+  return Camera(fx, fy, cx, cy, width, height, read_distortion(fields));
+}
+
+inline std::optional<double> read_baseline(const YamlFile& fields) {
+  if (!fields.has("baseline_m")) return std::nullopt;
+  return fields.positive("baseline_m", "the positive distance of the two cameras in metres");
+}
+
+}  // namespace detail
+
+/// Reads camera.yaml (OpenCV's FileStorage): `fx fy cx cy` in pixels, `width height`, `depth_factor`; optionally
+/// `model` (pinhole, brown_conrady with k1 k2 p1 p2 and optionally k3, or equidistant with k1 to k4; without it, p1
+/// means brown_conrady and no coefficient a pinhole), and `baseline_m`, the distance in metres of the two cameras that
+/// the depth is from.
+/// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
+///         three, or coefficients are given that the model does not have.
+inline RgbdCamera read_camera(const std::filesystem::path& file) {
+  const YamlFile fields(file);
+  const Camera camera = detail::read_intrinsics(fields);
+  return {camera, fields.positive("depth_factor", "the positive number that a depth image counts per metre"),
+          detail::read_baseline(fields)};
+}
+
+/// Reads the same file for images without depth: `depth_factor` may be missing and is not looked at.
+/// @throws Error as `read_camera`, and for a baseline that is not positive.
+inline ImageCamera read_image_camera(const std::filesystem::path& file) {
+  const YamlFile fields(file);
+  return {detail::read_intrinsics(fields), detail::read_baseline(fields)};
 }
 
 /// The camera of an original folder of the TUM RGB-D benchmark, told by `freiburg1`, `freiburg2` or `freiburg3` in the

@@ -14,6 +14,7 @@
 #include <string>
 #include <string_view>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/error.hpp"
 
 namespace stillpoint {
@@ -54,6 +55,14 @@ inline cv::Mat read_image(const std::filesystem::path& file, int flags) {
   }
   if (image.empty()) throw Error(file.string() + ": cannot be read, expected a whole PNG or JPEG image" + reason);
   return image;
+}
+
+/// @throws Error naming the file unless the image has the camera's size.
+inline void require_size(const std::filesystem::path& file, const cv::Mat& image, const Camera& camera) {
+  if (image.cols == camera.width() && image.rows == camera.height()) return;
+  const auto size = [](int width, int height) { return std::to_string(width) + " x " + std::to_string(height); };
+  throw Error(file.string() + ": found " + size(image.cols, image.rows) + " pixels, expected the camera's " +
+              size(camera.width(), camera.height()));
 }
 
 }  // namespace stillpoint

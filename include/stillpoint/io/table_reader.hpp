@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Files of rows and columns, as the TUM benchmark writes them: columns between blanks, comments after '#'.
+// Files of rows and columns: columns between blanks, as the TUM benchmark writes them, or between commas, as EuRoC
+// does; comments after '#'.
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,14 @@ namespace stillpoint {
 /// Reads such a file row by row. What is wrong with a row becomes an `Error` "FILE:LINE: found X, expected Y".
 class TableReader {
  public:
+  enum class Columns {
+    between_blanks,
+    between_commas,  ///< blanks around them do not count; a column may be empty
+  };
+
   /// @throws Error if the file is missing, a folder, or unreadable.
-  explicit TableReader(const std::filesystem::path& file) : file_(file.string()) {
+  explicit TableReader(const std::filesystem::path& file, Columns columns = Columns::between_blanks)
+      : file_(file.string()), separates_by_commas_(columns == Columns::between_commas) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) throw Error(file_ + ": no such file");
     if (std::filesystem::is_directory(file, ignored)) throw Error(file_ + ": found a folder, expected a file");
@@ -43,13 +50,15 @@ class TableReader {
       split(std::string_view(text_).substr(next_, end - next_));
       next_ = end + 1;
       ++line_;
-      if (!columns_.empty() && columns_[0][0] != '#') return true;
+      if (!columns_.empty() && columns_[0].substr(0, 1) != "#") return true;
     }
     return false;
   }
 
   /// Columns of the current row; valid while the reader lives.
   std::string_view operator[](std::size_t column) const { return columns_[column]; }
+
+  std::size_t column_count() const { return columns_.size(); }
 
   /// @param names  what the columns are, separated by blanks, as a header names them.
   /// @throws Error unless the row has one column for each name.
@@ -89,9 +98,24 @@ class TableReader {
   std::string position() const { return file_ + ":" + std::to_string(line_); }
 
  private:
+  static constexpr std::string_view kBlanks = " \t\r";
+
+  static std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(kBlanks);
+    return begin == text.npos ? std::string_view() : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+  }
+
   void split(std::string_view line) {
-    constexpr std::string_view kBlanks = " \t\r";
     columns_.clear();
+    if (separates_by_commas_) {
+      if (trimmed(line).empty()) return;
+      for (std::size_t begin = 0; begin <= line.size();) {
+        const std::size_t end = std::min(line.find(',', begin), line.size());
+        columns_.push_back(trimmed(line.substr(begin, end - begin)));
+        begin = end + 1;
+      }
+      return;
+    }
     for (std::size_t begin = line.find_first_not_of(kBlanks); begin != line.npos;) {
       const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
       columns_.push_back(line.substr(begin, end - begin));
@@ -108,6 +132,7 @@ class TableReader {
   }
 
   std::string file_;
+  bool separates_by_commas_;
   std::string text_;
   std::size_t next_ = 0;
   int line_ = 0;

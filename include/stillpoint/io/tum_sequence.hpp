@@ -51,6 +51,8 @@ class TumSequence {
   const std::vector<TumFrame>& frames() const { return frames_; }
   const Camera& camera() const { return camera_.camera; }
   double depth_factor() const { return camera_.depth_factor; }
+  /// Of the two cameras that the depth is from; empty where the camera's file does not say.
+  std::optional<double> baseline_m() const { return camera_.baseline_m; }
 
   /// Reference poses, world_from_camera; empty where the folder has none.
   const std::optional<Trajectory>& ground_truth() const { return ground_truth_; }
@@ -66,7 +68,7 @@ class TumSequence {
     const TumFrame& frame = frame_at(index);
     RgbdImages images;
     images.colour = read_image(frame.colour_file, cv::IMREAD_COLOR);
-    require_size(frame.colour_file, images.colour);
+    require_size(frame.colour_file, images.colour, camera());
 
     images.depth = read_image(frame.depth_file, cv::IMREAD_UNCHANGED);
     require_type(frame.depth_file, images.depth, CV_16UC1);
@@ -86,7 +88,7 @@ class TumSequence {
         folder_ / "labels" / frame_at(index).colour_file.filename().replace_extension(".png");
     const cv::Mat labels = read_image(file, cv::IMREAD_UNCHANGED);
     require_type(file, labels, CV_8UC1);
-    require_size(file, labels);
+    require_size(file, labels, camera());
     return labels;
   }
 
@@ -120,12 +122,6 @@ class TumSequence {
     };
     throw Error(file.string() + ": found " + describe(image.channels(), image.elemSize1()) + ", expected " +
                 describe(CV_MAT_CN(type), type == CV_16UC1 ? 2u : 1u));
-  }
-
-  void require_size(const std::filesystem::path& file, const cv::Mat& image) const {
-    if (image.cols == camera().width() && image.rows == camera().height()) return;
-    throw Error(file.string() + ": found " + size_of(image) + " pixels, expected the camera's " +
-                std::to_string(camera().width()) + " x " + std::to_string(camera().height()));
   }
 
   static std::string size_of(const cv::Mat& image) {

@@ -4,14 +4,19 @@
 
 // A YAML file as OpenCV's FileStorage reads it, with errors that name file and field.
 
-#include <opencv2/core/persistence.hpp>
+#include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/io/number_format.hpp"
 
 namespace stillpoint {
 
@@ -26,14 +31,24 @@ class YamlFile {
     try {
       if (storage_.open(file_, cv::FileStorage::READ)) return;
     } catch (const cv::Exception& error) {
-      throw Error(file_ + ": " + error.err +
-                  ", expected YAML as OpenCV's FileStorage writes it, beginning with %YAML:1.0");
+      fail_to_parse(error, 0, "YAML as OpenCV's FileStorage writes it, beginning with %YAML:1.0");
     }
     throw Error(file_ + ": cannot be read");
   }
 
+  /// @param text  YAML as it stands in the file, without the first line that FileStorage asks for
+  YamlFile(const std::filesystem::path& file, const std::string& text) : file_(file.string()) {
+    try {
+      if (storage_.open("%YAML:1.0\n---\n" + text, cv::FileStorage::READ | cv::FileStorage::MEMORY)) return;
+    } catch (const cv::Exception& error) {
+      fail_to_parse(error, 2, "YAML");
+    }
+    throw Error(file_ + ": cannot be read, expected YAML");
+  }
+
   cv::FileNode root() const { return storage_.root(); }
   bool has(const char* field) const { return !storage_[field].empty(); }
+  cv::FileNode operator[](const char* field) const { return storage_[field]; }
 
   /// A finite number.
   double number(const char* field, const char* expected) const {
@@ -71,6 +86,18 @@ class YamlFile {
   }
 
  private:
+  /// Says in which line it is: FileStorage puts "(LINE): reason" where others have the name of a function.
+  /// @param lines_before  that are not in the file
+  [[noreturn]] void fail_to_parse(const cv::Exception& error, int lines_before, const std::string& expected) const {
+    const std::size_t end = error.func.find("): "), begin = error.func.rfind('(', end);
+    std::optional<double> line;
+    if (end != std::string::npos && begin != std::string::npos)
+      line = parse_number(std::string_view(error.func).substr(begin + 1, end - begin - 1));
+    if (!line) throw Error(file_ + ": " + error.err + ", expected " + expected);
+    throw Error(file_ + ':' + std::to_string(std::max(1, static_cast<int>(*line) - lines_before)) + ": " +
+                error.func.substr(end + 3) + ", expected " + expected);
+  }
+
   std::string file_;
   cv::FileStorage storage_;
 };

@@ -165,9 +165,10 @@ class HandShake {
 struct CameraPath {
   Path path;
   HandShake shake;
+  Pose hand_from_camera = Pose::Identity();  ///< of several cameras in one hand: where this one sits
 
   Pose world_from_camera(double time_s) const {
-    return path.world_from_object(time_s) * shake.steady_from_shaken(time_s);
+    return path.world_from_object(time_s) * shake.steady_from_shaken(time_s) * hand_from_camera;
   }
 };
 

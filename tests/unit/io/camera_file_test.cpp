@@ -31,9 +31,9 @@ std::string message_of(const std::string& text) {
   const TemporaryFolder folder;
   const auto file = folder.write("camera.yaml", text);
   const std::string message = error_of([&] { read_camera(file); });
-  const std::string where = file.string() + ": ";
+  const std::string where = file.string() + ":";
   EXPECT_EQ(message.substr(0, where.size()), where) << message;
-  return message.size() > where.size() ? message.substr(where.size()) : "";
+  return message.size() > where.size() ? message.substr(where.size() + 1) : "";
 }
 
 RgbdCamera camera_of(const Fields& changes) {
@@ -132,6 +132,33 @@ TEST(ReadCamera, FileThatIsNoYamlIsNamed) {
     const std::string message = message_of(text);
     EXPECT_TRUE(message.find("expected") != std::string::npos || message == "cannot be read") << message;
   }
+}
+
+TEST(ReadCamera, TheLineOfBrokenYamlIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("camera.yaml", "%YAML:1.0\n---\nfx: 5\n   fy: 6\n");
+  EXPECT_EQ(error_of([&] { read_camera(file); }),
+            file.string() +
+                ":4: Incorrect indentation, expected YAML as OpenCV's FileStorage writes it, beginning with "
+                "%YAML:1.0");
+}
+
+TEST(ReadImageCamera, NeedsNoDepthFactorAndTakesABaseline) {
+  const TemporaryFolder folder;
+  const auto read = [&folder](const Fields& changes) {
+    return read_image_camera(folder.write("camera.yaml", yaml(changes)));
+  };
+  EXPECT_EQ(read({{"depth_factor", ""}}).camera.cy(), 240.25);
+  EXPECT_FALSE(read({}).baseline_m);
+  EXPECT_EQ(read({{"baseline_m", "0.12"}}).baseline_m, 0.12);
+  EXPECT_EQ(camera_of({{"baseline_m", "0.12"}}).baseline_m, 0.12);
+  EXPECT_FALSE(camera_of({}).baseline_m);
+  const std::string where = (folder.path() / "camera.yaml").string() + ": ";
+  EXPECT_EQ(error_of([&] {
+              read({{"baseline_m", "-0.1"}});
+            }),
+            where + "baseline_m is -0.100000, expected the positive distance of the two cameras in metres");
+  EXPECT_EQ(error_of([&] { read({{"fx", ""}}); }), where + "fx is missing, expected a positive focal length in pixels");
 }
 
 TEST(ReadCamera, MissingFileAndFolderAreNamed) {

@@ -46,6 +46,21 @@ TEST(TableReader, NamesWhatIsWrongWithARow) {
   EXPECT_EQ(error_of([&] { rows.require_columns(3, "a b c"); }), where + "4 columns, expected 3: a b c");
 }
 
+TEST(TableReader, ColumnsBetweenCommasMayBeEmpty) {
+  const TemporaryFolder folder;
+  TableReader rows(folder.write("t.csv", "#a,b\n \r\n, 1 2 ,,x,\r\n,#\n"), TableReader::Columns::between_commas);
+  ASSERT_TRUE(rows.next_row());
+  ASSERT_EQ(rows.column_count(), 5u);
+  EXPECT_EQ(rows[0], "");
+  EXPECT_EQ(rows[1], "1 2");
+  EXPECT_EQ(rows[2], "");
+  EXPECT_EQ(rows[3], "x");
+  EXPECT_EQ(rows[4], "");
+  ASSERT_TRUE(rows.next_row());
+  EXPECT_EQ(rows.column_count(), 2u);
+  EXPECT_FALSE(rows.next_row());
+}
+
 TEST(TableReader, GarbageInAMessageIsShortAndPrintable) {
   const TemporaryFolder folder;
   TableReader rows(folder.write("t.txt", "\x1b[31m\x07\xff" + std::string(1000, 'x')));

@@ -12,6 +12,8 @@
 // clang-format off
 #include <stillpoint/stillpoint.hpp>
 #include <stillpoint/prior/async_detector.hpp>
+#include <stillpoint/stereo/rectification.hpp>
+#include <stillpoint/stereo/stereo_depth.hpp>
 // clang-format on
 
 namespace {
@@ -50,6 +52,27 @@ struct Wall {
 };
 
 const stillpoint::Camera kCamera(260, 260, 159.5, 119.5, 320, 240);
+
+TEST(Documents, AStereoPairBeforeTheFilter) {
+  const stillpoint::Camera &left_camera = kCamera, &right_camera = kCamera;
+  stillpoint::Pose right_from_left = stillpoint::Pose::Identity();
+  right_from_left.translation().x() = -0.1;
+  Wall wall;
+  const cv::Mat &left = wall.gray, &right = wall.gray;
+  cv::Mat rectified_left, rectified_right, depth;
+  const std::vector<cv::KeyPoint>& keypoints = wall.keypoints;
+  const double time = 1.0;
+  // clang-format off
+stillpoint::StereoRectification rectification(left_camera, right_camera, right_from_left);
+stillpoint::StereoDepth stereo(rectification.camera(), rectification.baseline_m());
+stillpoint::FrameFilter<> filter(rectification.camera());
+filter.depth_noise = stereo.noise();
+rectification.rectify(left, right, rectified_left, rectified_right);
+stereo.compute(rectified_left, rectified_right, depth);               // gray → float metres
+const auto& result = filter.filter_frame({rectified_left, depth, time}, keypoints);
+  // clang-format on
+  EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
+}
 
 TEST(Documents, TheSnippetOfTheReadmeRuns) {
   const stillpoint::Camera& camera = kCamera;
