@@ -31,6 +31,7 @@ struct RunRecord {
   std::optional<stillpoint::Trajectory> ground_truth;
   std::optional<DetectorRecord> detector;  ///< empty where no network ran
   stillpoint::FilterScore labels;
+  stillpoint::FilterScore predicted_mask;  ///< the same features, dropped by the mask that was predicted of their frame
 };
 
 struct Spread {

@@ -38,7 +38,10 @@ inline nlohmann::ordered_json labels_json(const RunRecord& run) {
           {"false_alarms", or_null(score.false_alarms())},
           {"moving", or_null(count(score.moving().features))},
           {"background", or_null(count(score.background().features))},
-          {"parked_dropped", or_null(score.parked_dropped())}};
+          {"parked_dropped", or_null(score.parked_dropped())},
+          {"predicted_mask",
+           {{"recall", or_null(run.predicted_mask.recall())},
+            {"false_alarms", or_null(run.predicted_mask.false_alarms())}}}};
 }
 
 /// Frames: offered = skipped + replaced + detected + failed.

@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "backends.hpp"
 #include "csv_files.hpp"
@@ -25,6 +27,7 @@
 #include "stillpoint/adapters/null_filter.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/number_format.hpp"
+#include "stillpoint/verdict/output_modes.hpp"
 
 namespace stillpoint_run {
 
@@ -46,6 +49,14 @@ inline void count_labels(const SourceFrame& frame, FrameRecord& record, stillpoi
   record.summary.moving = since(score.moving(), moving);
   record.summary.background = since(score.background(), background);
 }
+
+/// The mask that the filter predicts of the frame, before it has seen it; an oracle predicts none.
+template <class Policies>
+void predict_mask(stillpoint::FrameFilter<Policies>& filter, double timestamp_s, stillpoint::ImageBuffer& mask) {
+  constexpr int kMargin_px = 0;  // features are asked about, not pixels
+  filter.predicted_keep_mask(timestamp_s, kMargin_px, mask);
+}
+inline void predict_mask(const examples::OracleFilter&, double, const stillpoint::ImageBuffer&) {}
 
 inline void append_pose(const std::optional<stillpoint::Pose>& pose, double timestamp_s,
                         stillpoint::Trajectory& trajectory) {
@@ -95,11 +106,14 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
   const auto class_name = [&detector](int index) { return detector.class_name(index); };
   FrameRecord record;
+  stillpoint::ImageBuffer predicted_mask;
+  std::vector<std::uint8_t> under_no_mask;
   for (std::size_t i = first; i < first + count; ++i) {
     const SourceFrame frame = source.load(i);
     const stillpoint::FrameView view = frame.view();
     if (is_paced) clock.wait_for(frame.timestamp_s);
     prepare(filtered.filter, frame, detector.next(frame));
+    if (run.has_labels) detail::predict_mask(filtered.filter, frame.timestamp_s, predicted_mask);
     record.summary = FrameSummary{};
     record.summary.timestamp_s = frame.timestamp_s;
     const auto pose = filtered.track(view, [&](const std::vector<cv::KeyPoint>& keypoints, const auto& result) {
@@ -109,7 +123,13 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     record.summary.track_ms = filtered.backend.track_ms;
     detail::append_pose(pose, frame.timestamp_s, run.filtered);
     if (run.has_backend) detail::append_pose(unfiltered.track(view), frame.timestamp_s, run.unfiltered);
-    if (run.has_labels) detail::count_labels(frame, record, run.labels);
+    if (run.has_labels) {
+      detail::count_labels(frame, record, run.labels);
+      if (run.has_stages) {
+        stillpoint::flags_from_mask(predicted_mask.view(), record.pixels, under_no_mask);
+        run.predicted_mask.add_frame(frame.labels, record.pixels, under_no_mask);
+      }
+    }
 
     output.features.write(record);
     output.frames.write(record.summary);

@@ -13,6 +13,7 @@
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/keypoint.hpp"
+#include "stillpoint/core/mask_prediction.hpp"
 #include "stillpoint/core/motion_expectation.hpp"
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
@@ -49,6 +50,7 @@ class FrameFilter : private PolicyContract<Policies> {
   typename Policies::Classifier classifier;     ///< what moves together?
   Memory memory;                                ///< what did we know of this feature?
   typename Policies::KeepFloor keep_floor;      ///< how much must be left?
+  MaskPrediction mask_prediction;               ///< where will the coming frame show what moves?
 
   /// Judges the key points of a frame. Call it before the tracker, with frames in the order of time.
   /// @param host_frame  its views need not outlive the call
@@ -60,6 +62,7 @@ class FrameFilter : private PolicyContract<Policies> {
     result_.begin(read_pixels(keypoints, pixels_), camera.width(), camera.height());
     Status& status = result_.status_ = frame_check(host_frame, expectation_.last_timestamp_s(), camera);
     if (!FrameCheck::rejects(status)) {
+      mask_prediction.forget();
       if (status != Status::ok) reset();
       const FrameView frame = with_gray(host_frame, gray_);
       if (status == Status::ok) status = pixels_.empty() ? Status::no_keypoints : judge(frame);
@@ -77,6 +80,17 @@ class FrameFilter : private PolicyContract<Policies> {
   /// What an IMU or wheels say of the coming motion; holds for the next frame. A pose that is not finite is none.
   void expect_motion(const Pose& current_from_reference) { expectation_.expect(current_from_reference); }
 
+  /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
+  /// that its budget goes to what stands still. Everywhere, where the last frame was not judged. It knows no
+  /// keep-floor.
+  /// @param timestamp_s  of the coming frame
+  /// @param margin_px    more is dropped around what moves; an extractor's patch should not reach into it
+  /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
+  void predicted_keep_mask(double timestamp_s, int margin_px, ImageBuffer& mask) {
+    const DepthView depth = history_.empty() ? DepthView() : history_.back(1).view().depth;
+    mask_prediction.paint(timestamp_s, depth, camera.width(), camera.height(), margin_px, mask);
+  }
+
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
   void reset() {
     history_.clear();
@@ -85,6 +99,7 @@ class FrameFilter : private PolicyContract<Policies> {
     reset_policy(gate);
     memory.reset();
     expectation_ = MotionExpectation();
+    mask_prediction.forget();
   }
 
  private:
@@ -122,6 +137,8 @@ class FrameFilter : private PolicyContract<Policies> {
     timings.run(Stage::gate, [&] { learn(gate, matches_, labels); });
     timings.run(Stage::memory, [&] { memory.update(matches_, motion, scores, labels, workspace_); });
     timings.run(Stage::verdict, [&] {
+      mask_prediction.remember(matches_, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s,
+                               workspace_);
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches_.current.depth_m);
     });

@@ -33,6 +33,9 @@ allowed() {
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/prior/*"' ;;
     adapters) rule='adapters/ includes the host, core/, the pipeline and its own folder'
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
+    options) rule='options/ includes core/, io/, the pipeline and the stages'
+      printf '%s\n' "$std" "$opencv" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
+        '"stillpoint/policies.hpp"' "${stages[@]}" ;;
     version.hpp) rule='version.hpp includes nothing' ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
       printf '%s\n' "$std" "$opencv" "$core*\"" ;;

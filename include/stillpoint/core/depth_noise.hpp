@@ -52,6 +52,7 @@ FunctorNoise(Function) -> FunctorNoise<Function>;
 /// One of the models above, chosen at run time.
 struct AnyDepthNoise {
   std::variant<KinectNoise, StereoNoise, TimeOfFlightNoise> model;
+  double scale = 1.0;  ///< times what the model says: a camera's own measure (docs/tuning.md)
 
   AnyDepthNoise() = default;
   AnyDepthNoise(const KinectNoise& noise) : model(noise) {}
@@ -59,7 +60,7 @@ struct AnyDepthNoise {
   AnyDepthNoise(const TimeOfFlightNoise& noise) : model(noise) {}
 
   double sigma(double depth_m) const {
-    return std::visit([depth_m](const auto& noise) { return noise.sigma(depth_m); }, model);
+    return scale * std::visit([depth_m](const auto& noise) { return noise.sigma(depth_m); }, model);
   }
 };
 

@@ -5,12 +5,12 @@
 // The filter's answer for one frame.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -41,10 +41,9 @@ class FrameResult {
   /// Paints a mask of the image's size: 255 keeps, 0 within `radius_px` of a dropped feature.
   /// The buffer is reused when it has that size already.
   void mask(ImageBuffer& mask, int radius_px = 12) const {
-    mask.resize(width_, height_, PixelFormat::gray8);
-    for (int v = 0; v < height_; ++v) std::fill_n(mask.row<std::uint8_t>(v), width_, std::uint8_t{255});
+    keep_everywhere(width_, height_, mask);
     for (std::size_t i = 0; i < labels_.size(); ++i)
-      if (keep_[i] == 0) drop_disc(mask, pixel_[i], radius_px);
+      if (keep_[i] == 0) drop_disc(pixel_[i], radius_px, mask);
   }
 
  private:
@@ -77,18 +76,6 @@ class FrameResult {
       keep_[i] = labels_[i].keep ? 1 : 0;
       kept_count_ += keep_[i];
       keep_floor_kept_ += labels_[i].reason == Reason::keep_floor;
-    }
-  }
-
-  static void drop_disc(ImageBuffer& mask, const Vector2f& centre, int radius_px) {
-    const ImageView view = mask.view();
-    if (!(view.border_distance_px(centre.x(), centre.y()) >= -1.0f - static_cast<float>(radius_px))) return;
-    const double radius_sq_px = static_cast<double>(radius_px) * radius_px;
-    const int u0 = static_cast<int>(std::lround(centre.x())), v0 = static_cast<int>(std::lround(centre.y()));
-    for (int v = std::max(v0 - radius_px, 0); v <= std::min(v0 + radius_px, view.height - 1); ++v) {
-      const int half = static_cast<int>(std::sqrt(radius_sq_px - static_cast<double>(v - v0) * (v - v0)));
-      const int begin = std::max(u0 - half, 0), end = std::min(u0 + half + 1, view.width);
-      if (begin < end) std::fill(mask.row<std::uint8_t>(v) + begin, mask.row<std::uint8_t>(v) + end, std::uint8_t{0});
     }
   }
 

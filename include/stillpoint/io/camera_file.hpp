@@ -4,16 +4,13 @@
 
 // The camera of a sequence: from camera.yaml, or for an original folder of the TUM benchmark from the folder's name.
 
-#include <opencv2/core.hpp>
-
-#include <cmath>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/distortion.hpp"
-#include "stillpoint/core/error.hpp"
+#include "stillpoint/io/yaml_file.hpp"
 
 namespace stillpoint {
 
@@ -25,63 +22,7 @@ struct RgbdCamera {
 
 namespace detail {
 
-/// The fields of one camera file, each checked on the way out.
-class CameraFields {
- public:
-  explicit CameraFields(const std::filesystem::path& file) : file_(file.string()) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) throw Error(file_ + ": no such file");
-    if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file_ + ": expected a file");
-    try {
-      if (storage_.open(file_, cv::FileStorage::READ)) return;
-    } catch (const cv::Exception& error) {
-      throw Error(file_ + ": " + error.err +
-                  ", expected YAML as OpenCV's FileStorage writes it, beginning with %YAML:1.0");
-    }
-    throw Error(file_ + ": cannot be read");
-  }
-
-  bool has(const char* field) const { return !storage_[field].empty(); }
-
-  double number(const char* field, const char* expected) const {
-    const cv::FileNode node = storage_[field];
-    if (node.empty()) fail(field, "is missing", expected);
-    if (!node.isReal() && !node.isInt()) fail(field, "is not a number", expected);
-    const double value = node.real();
-    if (!std::isfinite(value)) fail(field, "is not finite", expected);
-    return value;
-  }
-
-  double positive(const char* field, const char* expected) const {
-    const double value = number(field, expected);
-    if (!(value > 0)) fail(field, "is " + std::to_string(value), expected);
-    return value;
-  }
-
-  int size(const char* field) const {
-    constexpr double kLargest = 65535;  // what PNG and JPEG can hold, too
-    const char* const expected = "a whole number of pixels from 1 to 65535";
-    const double value = positive(field, expected);
-    if (!(value <= kLargest) || value != std::floor(value)) fail(field, "is " + std::to_string(value), expected);
-    return static_cast<int>(value);
-  }
-
-  std::string text(const char* field, const char* expected) const {
-    const cv::FileNode node = storage_[field];
-    if (!node.isString()) fail(field, "is not a word", expected);
-    return node.string();
-  }
-
-  [[noreturn]] void fail(const std::string& field, const std::string& found, const std::string& expected) const {
-    throw Error(file_ + ": " + field + " " + found + ", expected " + expected);
-  }
-
- private:
-  std::string file_;
-  cv::FileStorage storage_;
-};
-
-inline AnyDistortion read_distortion(const CameraFields& fields) {
+inline AnyDistortion read_distortion(const YamlFile& fields) {
   static constexpr const char* kModels = "pinhole, brown_conrady or equidistant";
   const auto coefficient = [&fields](const char* name) {
     return fields.number(name, "a coefficient of the lens model");
@@ -123,7 +64,7 @@ inline AnyDistortion read_distortion(const CameraFields& fields) {
 /// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
 ///         three, or coefficients are given that the model does not have.
 inline RgbdCamera read_camera(const std::filesystem::path& file) {
-  const detail::CameraFields fields(file);
+  const detail::YamlFile fields(file);
   const char* const focal_length = "a positive focal length in pixels";
   const char* const principal_point = "a finite principal point in pixels";
   const double fx = fields.positive("fx", focal_length);

@@ -20,6 +20,7 @@
 #include "stillpoint/policies.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
+#include "stillpoint/verdict/output_modes.hpp"
 
 namespace stillpoint {
 namespace {
@@ -29,6 +30,7 @@ enum class Prior { none, boxes };
 /// How the filter did on one scene.
 struct Outcome {
   FilterScore score;
+  FilterScore predicted_mask;  ///< the same features, dropped by the mask that was predicted of their frame
   int judged = 0, frames = 0;
   double worst_position_m = 0;  ///< of the chained motions, from the first frame on
 };
@@ -47,6 +49,8 @@ Outcome run(const synthetic::Scene& scene, FrameFilter<>& filter, Prior prior = 
   SyntheticSequence sequence(scene);
   SyntheticFrame frame;
   Outcome outcome;
+  ImageBuffer mask;
+  std::vector<std::uint8_t> under_no_mask;
   Pose first_from_world = Pose::Identity(), first_from_camera = Pose::Identity();
   for (int f = 0; f < sequence.size(); ++f) {
     sequence.render(f, frame);
@@ -58,6 +62,9 @@ Outcome run(const synthetic::Scene& scene, FrameFilter<>& filter, Prior prior = 
       filter.prior.detections.push_back({extent, Mobility::dynamic, 1.0f});
     }
     const std::vector<Vector2f> pixels = corners(frame);
+    filter.predicted_keep_mask(frame.timestamp_s, 0, mask);
+    flags_from_mask(mask.view(), pixels, under_no_mask);
+    outcome.predicted_mask.add_frame(frame.labels.view(), pixels, under_no_mask);
     const FrameResult& result = filter.filter_frame(frame.view(), pixels);
     outcome.score.add_frame(frame.labels.view(), pixels, result.keep());
     const Pose camera_from_world = frame.world_from_camera.inverse();
@@ -121,6 +128,8 @@ TEST(DefaultScenes, ABoxThatNoDetectorKnowsIsFound) {
   ASSERT_GT(outcome.score.moving().features, 1000u);
   EXPECT_GE(outcome.score.recall(), 0.95);
   EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_GE(outcome.predicted_mask.recall(), 0.9) << "told before the frame was seen";
+  EXPECT_LE(outcome.predicted_mask.false_alarms(), 0.02);
   EXPECT_LE(outcome.worst_position_m, 0.01) << "a pose that the box takes along is off by centimetres";
 }
 
@@ -156,6 +165,8 @@ TEST(DefaultScenes, WalkingPeopleInBoxesAreFound) {
   ASSERT_GT(outcome.score.moving().features, 1000u);
   EXPECT_GE(outcome.score.recall(), 0.95);
   EXPECT_LE(outcome.score.false_alarms(), 0.015);
+  EXPECT_GE(outcome.predicted_mask.recall(), 0.9);
+  EXPECT_LE(outcome.predicted_mask.false_alarms(), 0.04) << "features at rims, which the surface's cells reach";
 }
 
 TEST(DefaultScenes, ATurningCameraDoesNoHarm) {

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where will the coming frame show what moves?   The last verdicts, carried on: for a host that spends its feature
+// budget before it can ask about features.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/mask.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+
+namespace stillpoint {
+
+/// Remembers the moving features of the last frame that was judged, the matcher's own corners among them (a host that
+/// extracts nothing under the mask still has them looked at), and how far each went in the image. Nothing is predicted
+/// where the last frame was not judged.
+class MaskPrediction {
+ public:
+  struct Options {
+    int reach_px = 24;                     ///< a feature speaks for its surface so far around: a support corner's cell
+    double surface_m = 0.06;               ///< depths that differ less are one surface …
+    double surface_per_square_m = 0.0076;  ///< … and this much more per square metre of depth
+    double longest_gap_s = 1.0;            ///< farther ahead nothing is predicted
+  };
+  Options options;
+
+  /// Takes what a frame said. A feature without a match of its own goes with the moving ones around it.
+  /// @param interval_s  from the reference frame to this one
+  void remember(const Matches& matches, span<const Label> labels, double timestamp_s, double interval_s,
+                Workspace& workspace) {
+    forget();
+    timestamp_s_ = timestamp_s;
+    if (!(interval_s > 0)) return;
+    moving_.reserve(matches.size());
+    const Workspace::Scope scope(workspace);
+    const auto reach_px = static_cast<float>(options.reach_px);
+    const PixelGrid around(matches.current.pixel, reach_px, workspace, [](std::size_t) { return true; });
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const Vector2f pixel = matches.current.pixel[i];
+      if (labels[i].verdict != Verdict::dynamic || !pixel.allFinite()) continue;
+      const auto depth_m = static_cast<float>(matches.current.depth_m[i]);
+      int moving = 0, all = 0;
+      around.within(pixel, reach_px, [&](std::size_t j, float) {
+        if (!one_surface(depth_m, static_cast<float>(matches.current.depth_m[j]))) return;
+        ++all;
+        moving += labels[j].verdict == Verdict::dynamic;
+      });
+      const Vector2f velocity_px = step_px(matches, labels, i, around) / static_cast<float>(interval_s);
+      moving_.push_back({pixel, velocity_px, depth_m, 2 * moving > all});
+    }
+  }
+
+  void forget() noexcept { moving_.clear(); }
+
+  /// Paints where they will be: for each the part of its surface that is near, without a depth the feature alone.
+  /// @param timestamp_s  of the coming frame; one that is not later than the last frame's predicts nothing
+  /// @param depth        of the last frame, may be empty
+  /// @param margin_px    is dropped around it as well
+  /// @param mask         becomes gray8 of this size: 255 keeps, 0 drops
+  void paint(double timestamp_s, const DepthView& depth, int width, int height, int margin_px, ImageBuffer& mask) {
+    keep_everywhere(width, height, mask);
+    const double ahead_s = timestamp_s - timestamp_s_;
+    if (moving_.empty() || !(ahead_s > 0) || !(ahead_s <= options.longest_gap_s)) return;
+    columns_ = (width + kCell_px - 1) / kCell_px;
+    rows_ = (height + kCell_px - 1) / kCell_px;
+    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+    const ImageView image(nullptr, width, height, 0, PixelFormat::gray8);
+    for (const Moving& feature : moving_) mark(feature, static_cast<float>(ahead_s), depth, image);
+    drop_marked(std::max(margin_px, 0), mask);
+  }
+
+ private:
+  struct Moving {
+    Vector2f pixel;
+    Vector2f velocity_px;  ///< per second
+    float depth_m;         ///< 0 where there is none
+    bool with_surface;     ///< most features near it on its surface move as well
+  };
+  static constexpr int kCell_px = 4;
+
+  bool one_surface(float depth_m, float other_m) const noexcept {
+    const double squared = static_cast<double>(depth_m) * depth_m;
+    return depth_m > 0 && std::abs(static_cast<double>(other_m - depth_m)) <=
+                              options.surface_m + options.surface_per_square_m * squared;
+  }
+
+  /// How far feature `i` went since the reference frame: by its own match, else with the moving ones around it.
+  Vector2f step_px(const Matches& matches, span<const Label> labels, std::size_t i, const PixelGrid& around) const {
+    if (matches.matched(i)) return matches.current.pixel[i] - matches.reference.pixel[i];
+    const auto reach_px = static_cast<float>(2 * options.reach_px);
+    Vector2f sum = Vector2f::Zero();
+    float weight = 0;
+    around.within(matches.current.pixel[i], reach_px, [&](std::size_t j, float squared) {
+      if (labels[j].verdict != Verdict::dynamic || !matches.matched(j)) return;
+      const float near = 1 - squared / (reach_px * reach_px);
+      weight += near;
+      sum += near * (matches.current.pixel[j] - matches.reference.pixel[j]);
+    });
+    return weight > 0 ? Vector2f(sum / weight) : Vector2f::Zero();
+  }
+
+  /// Marks the cells in which the feature and its surface will be.
+  void mark(const Moving& feature, float ahead_s, const DepthView& depth, const ImageView& image) {
+    const Vector2f step = ahead_s * feature.velocity_px;
+    mark_cell(feature.pixel + step);
+    if (depth.empty() || !feature.with_surface) return;
+    const DepthScale to_depth(image, depth.image);
+    for (int dv = -options.reach_px; dv <= options.reach_px; dv += kCell_px) {
+      for (int du = -options.reach_px; du <= options.reach_px; du += kCell_px) {
+        if (du * du + dv * dv > options.reach_px * options.reach_px) continue;
+        const Vector2f pixel = feature.pixel + Vector2f(static_cast<float>(du), static_cast<float>(dv));
+        const Vector2f there = to_depth(pixel);
+        const auto u = static_cast<int>(std::lround(there.x())), v = static_cast<int>(std::lround(there.y()));
+        if (depth.image.contains(u, v) && one_surface(feature.depth_m, depth.metres(u, v))) mark_cell(pixel + step);
+      }
+    }
+  }
+
+  void mark_cell(const Vector2f& pixel) {
+    const float column = std::floor((pixel.x() + 0.5f) / kCell_px), row = std::floor((pixel.y() + 0.5f) / kCell_px);
+    if (column >= 0 && row >= 0 && column < static_cast<float>(columns_) && row < static_cast<float>(rows_))
+      cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)] = 1;
+  }
+
+  bool marked(int column, int row) const noexcept {
+    return column >= 0 && row >= 0 && column < columns_ && row < rows_ &&
+           cells_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                  static_cast<std::size_t>(column)] != 0;
+  }
+
+  /// A disc around every marked cell; inside of an area the cell's own square is enough.
+  void drop_marked(int margin_px, ImageBuffer& mask) const {
+    const ImageView view = mask.view();
+    for (int row = 0; row < rows_; ++row) {
+      for (int column = 0; column < columns_; ++column) {
+        if (!marked(column, row)) continue;
+        const int u0 = column * kCell_px, v0 = row * kCell_px;
+        const int u1 = std::min(u0 + kCell_px, view.width), v1 = std::min(v0 + kCell_px, view.height);
+        for (int v = v0; v < v1; ++v)
+          std::fill(mask.row<std::uint8_t>(v) + u0, mask.row<std::uint8_t>(v) + u1, kMaskDrops);
+        const bool inside =
+            marked(column - 1, row) && marked(column + 1, row) && marked(column, row - 1) && marked(column, row + 1);
+        constexpr float kHalf = 0.5f * (kCell_px - 1);
+        if (!inside)
+          drop_disc({static_cast<float>(u0) + kHalf, static_cast<float>(v0) + kHalf}, margin_px + kCell_px / 2, mask);
+      }
+    }
+  }
+
+  std::vector<Moving> moving_;
+  std::vector<std::uint8_t> cells_;
+  int columns_ = 0, rows_ = 0;
+  double timestamp_s_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,249 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/io/options_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "stillpoint/policies.hpp"
+#include "unit/error_of.hpp"
+
+namespace stillpoint {
+namespace {
+
+Camera any_camera() { return {500, 500, 319.5, 239.5, 640, 480}; }
+
+class OptionsFile : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder = std::filesystem::path(testing::TempDir()) /
+             (std::string("options_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  std::filesystem::path file(const std::string& text) const {
+    const std::filesystem::path path = folder / "options.yaml";
+    std::ofstream(path) << "%YAML:1.0\n---\n" << text;
+    return path;
+  }
+  std::string error(const std::string& text) {
+    return error_of([&] { read_options(file(text), filter); });
+  }
+
+  std::filesystem::path folder;
+  FrameFilter<> filter{any_camera()};
+};
+
+/// Adds one to every number, turns flags and takes the next choice.
+struct Change {
+  template <class T>
+  void operator()(const char*, T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+      value = !value;
+    else if constexpr (std::is_arithmetic_v<T>)
+      value = static_cast<T>(value + T{1} + T{1} / T{4});  // a quarter of an integer is none
+    else if constexpr (has_options<T, Change>::value)
+      each_option(value, *this);
+  }
+  template <class T>
+  void positive(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T>
+  void any(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T, class... Words>
+  void choice(const char*, T& value, Words...) {
+    value = static_cast<T>((static_cast<std::size_t>(value) + 1) % sizeof...(Words));
+  }
+};
+
+template <class Policies>
+class OptionsOf : public testing::Test {};
+using PolicySets = testing::Types<DefaultPolicies, PaperPolicies, PaperRigidPolicies>;
+TYPED_TEST_SUITE(OptionsOf, PolicySets);
+
+TYPED_TEST(OptionsOf, EveryOptionSurvivesItsFile) {
+  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "options_round_trip.yaml";
+  FrameFilter<TypeParam> original(any_camera()), restored(any_camera());
+  const std::string defaults = options_as_yaml(original);
+  Change change;
+  each_option(original, change);
+  const std::string changed = options_as_yaml(original);
+  ASSERT_NE(changed, defaults);
+  write_options(path, original);
+  read_options(path, restored);
+  EXPECT_EQ(options_as_yaml(restored), changed);
+  std::filesystem::remove(path);
+}
+
+/// Converts to whatever a field is.
+struct Anything {
+  template <class T>
+  operator T() const;
+};
+template <class Group, class Fields, class = void>
+struct takes : std::false_type {};
+template <class Group, std::size_t... I>
+struct takes<Group, std::index_sequence<I...>, std::void_t<decltype(Group{(static_cast<void>(I), Anything{})...})>>
+    : std::true_type {};
+/// How many fields an aggregate has: the most that it can be initialised with.
+template <class Group, std::size_t N = 40>
+constexpr std::size_t field_count() {
+  if constexpr (N == 0 || takes<Group, std::make_index_sequence<N>>::value)
+    return N;
+  else
+    return field_count<Group, N - 1>();
+}
+
+/// Counts what is visited, groups as one.
+struct Count {
+  std::size_t visited = 0;
+  template <class T>
+  void operator()(const char*, T&) {
+    ++visited;
+  }
+  template <class T>
+  void positive(const char*, T&) {
+    ++visited;
+  }
+  template <class T>
+  void any(const char*, T&) {
+    ++visited;
+  }
+  template <class T, class... Words>
+  void choice(const char*, T&, Words...) {
+    ++visited;
+  }
+};
+template <class Group>
+std::size_t visited(Group&& group) {
+  Count count;
+  each_option(group, count);
+  return count.visited;
+}
+
+// A field that is added to a stage and forgotten in the file makes this fail.
+TEST(StageOptions, NoFieldIsLeftOut) {
+  EXPECT_EQ(visited(FrameCheck()), field_count<FrameCheck::Options>());
+  EXPECT_EQ(visited(GuardedDepth()), field_count<GuardedDepth::Options>());
+  EXPECT_EQ(visited(MaskPrediction()), field_count<MaskPrediction::Options>());
+  EXPECT_EQ(visited(BoxPrior()), field_count<BoxPrior::Options>());
+  EXPECT_EQ(visited(PropagatedPrior()), visited(ForegroundPrior()) + field_count<PropagatedPrior::Carrying>());
+  EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());
+  EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>());
+  EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
+  EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 2) << "guard and surfaces";
+  EXPECT_EQ(visited(PatchSearch()), field_count<PatchSearch>() - 1) << "the warp is none";
+  EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>());
+  EXPECT_EQ(visited(EpipolarMotion()), field_count<EpipolarMotion::Options>());
+  EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
+  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>());
+  EXPECT_EQ(visited(StandingCamera()), field_count<StandingCamera>());
+  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints and standing";
+  EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
+  EXPECT_EQ(visited(SightingScore()), field_count<SightingScore::Options>());
+  EXPECT_EQ(visited(MeanGate()), field_count<MeanGate::Options>());
+  EXPECT_EQ(visited(TailGate()), field_count<TailGate::Options>());
+  EXPECT_EQ(visited(RegionClusters()), field_count<RegionClusters::Options>());
+  EXPECT_EQ(visited(SurfaceClusters()), field_count<SurfaceClusters::Options>());
+  EXPECT_EQ(visited(EvidenceMemory()), field_count<EvidenceMemory::Options>());
+  EXPECT_EQ(visited(KeepFloor()), field_count<KeepFloor::Options>());
+}
+
+TEST_F(OptionsFile, OptionsThatAreNotNamedStay) {
+  const std::string before = options_as_yaml(filter);
+  read_options(file("gate:\n   false_positive_rate: 0.05\n"), filter);
+  EXPECT_EQ(filter.gate.options.false_positive_rate, 0.05);
+  filter.gate.options.false_positive_rate = TailGate::Options{}.false_positive_rate;
+  EXPECT_EQ(options_as_yaml(filter), before);
+}
+
+TEST_F(OptionsFile, DepthNoiseIsAModelAndItsParameters) {
+  read_options(file("depth_noise:\n   model: stereo\n   baseline_m: 0.25\n   scale: 2.\n"), filter);
+  const auto* const stereo = std::get_if<StereoNoise>(&filter.depth_noise.model);
+  ASSERT_NE(stereo, nullptr);
+  EXPECT_EQ(stereo->baseline_m, 0.25);
+  EXPECT_EQ(stereo->focal_px, StereoNoise{}.focal_px);
+  // z² σ_d / (f b) = 4 · 0.3 / (500 · 0.25) = 0.0096 m, twice.
+  EXPECT_NEAR(filter.depth_noise.sigma(2.0), 0.0192, 1e-12);
+}
+
+TEST_F(OptionsFile, SeedsKeepTheirSixtyFourBits) {
+  filter.classifier.options.seed = 0xfedc'ba98'7654'3210u;
+  const std::filesystem::path path = folder / "seed.yaml";
+  write_options(path, filter);
+  FrameFilter<> restored(any_camera());
+  read_options(path, restored);
+  EXPECT_EQ(restored.classifier.options.seed, 0xfedc'ba98'7654'3210u);
+}
+
+TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
+  const std::string name = (folder / "options.yaml").string();
+  EXPECT_EQ(error("gate:\n   rate: 0.1\n").substr(0, name.size() + 56),
+            name + ": gate.rate is unknown, expected one of false_positive_r");
+  EXPECT_EQ(error("gait:\n   rate: 0.1\n").substr(0, name.size() + 48),
+            name + ": gait is unknown, expected one of frame_check, ");
+  EXPECT_EQ(error("gate: 3\n"), name + ": gate is no map, expected options as name: value, one a line and indented");
+  EXPECT_EQ(error("gate:\n   false_positive_rate: high\n"),
+            name + ": gate.false_positive_rate is not a number, expected a number above 0");
+  EXPECT_EQ(error("gate:\n   false_positive_rate: 0.\n"),
+            name + ": gate.false_positive_rate is 0.000000, expected a number above 0");
+  EXPECT_EQ(error("gate:\n   trusted: -0.5\n"),
+            name + ": gate.trusted is -0.500000, expected a number that is not negative");
+  EXPECT_EQ(error("gate:\n   decay: .Nan\n"), name + ": gate.decay is not finite, expected a number above 0");
+  EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 0\n"),
+            name + ": matcher.corners.cell_px is 0, expected a number above 0");
+  EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 24.5\n"),
+            name + ": matcher.corners.cell_px is no whole number, expected a whole number from 0 to 2147483647");
+  EXPECT_EQ(error("keep_floor:\n   fewest_features: -1\n"),
+            name + ": keep_floor.fewest_features is -1, expected a whole number from 0 to 18446744073709551615");
+  EXPECT_EQ(error("depth_noise:\n   model: sonar\n"),
+            name + ": depth_noise.model is 'sonar', expected kinect or stereo or tof");
+  EXPECT_EQ(error("depth_noise:\n   model: tof\n   baseline_m: 0.1\n"),
+            name + ": depth_noise.baseline_m is unknown, expected one of model, constant_m, per_metre, scale");
+}
+
+TEST_F(OptionsFile, NothingChangesWhereAnythingIsWrong) {
+  const std::string before = options_as_yaml(filter);
+  EXPECT_NE(error("gate:\n   decay: 2.\ndepth_noise:\n   model: tof\nmemory:\n   minority: -1.\n"), "");
+  EXPECT_EQ(options_as_yaml(filter), before);
+}
+
+TEST_F(OptionsFile, FileThatIsNoneIsSaid) {
+  EXPECT_EQ(error_of([&] { read_options(folder / "none.yaml", filter); }),
+            (folder / "none.yaml").string() + ": no such file");
+  const std::filesystem::path text = folder / "text.yaml";
+  std::ofstream(text) << "gate = 3\n";
+  EXPECT_NE(error_of([&] { read_options(text, filter); }), "");
+}
+
+/// A stage of a user, with options of its own.
+struct MyGate : TailGate {
+  double patience_s = 1.0;
+};
+template <class Visit>
+void each_option(MyGate& gate, Visit& visit) {
+  visit("patience_s", gate.patience_s);
+}
+struct MyPolicies : DefaultPolicies {
+  using Gate = MyGate;
+};
+
+TEST_F(OptionsFile, StageOfAUserTakesPart) {
+  FrameFilter<MyPolicies> mine(any_camera());
+  read_options(file("gate:\n   patience_s: 3\n"), mine);
+  EXPECT_EQ(mine.gate.patience_s, 3.0);
+}
+
+}  // namespace
+}  // namespace stillpoint
