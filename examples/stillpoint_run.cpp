@@ -7,20 +7,25 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <system_error>
+#include <type_traits>
 
 #include "run/backends.hpp"
+#include "run/calibration.hpp"
 #include "run/csv_files.hpp"
 #include "run/detection_feed.hpp"
 #include "run/figures.hpp"
 #include "run/filters.hpp"
 #include "run/frame_source.hpp"
 #include "run/options.hpp"
+#include "run/options_json.hpp"
 #include "run/overlay.hpp"
 #include "run/report_html.hpp"
 #include "run/report_json.hpp"
@@ -29,6 +34,7 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/atomic_file.hpp"
 #include "stillpoint/io/trajectory_file.hpp"
+#include "stillpoint/options/options_file.hpp"
 
 namespace stillpoint_run {
 namespace {
@@ -47,30 +53,52 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
   output.commit();
 }
 
+/// An oracle has no options.
+template <class Filter>
+void describe(Filter& filter, std::string& yaml, nlohmann::ordered_json& json) {
+  if constexpr (!std::is_same_v<Filter, examples::OracleFilter>) {
+    yaml = stillpoint::options_as_yaml(filter);
+    json = options_json(filter);
+  }
+}
+
+void calibrate_camera(const Options& options, FrameSource& source) {
+  make_folder(options.out);
+  const CalibrationRecord record = calibrate(options, source);
+  write_whole(options.out / "options.yaml", record.yaml);
+  for (const std::string& sentence : sentences(record)) std::printf("%s\n", sentence.c_str());
+  std::printf("Options: %s\n", (options.out / "options.yaml").string().c_str());
+}
+
 /// Nothing gets its name before everything is computed: after an error OUT is as it was.
 void run(const Options& options) {
   cv::setNumThreads(options.threads);
   const std::unique_ptr<FrameSource> source = open_source(options);
+  if (options.calibrate) return calibrate_camera(options, *source);
   const std::unique_ptr<DetectionFeed> detector = open_feed(options);
   make_folder(options.out);
   FeaturesFile features(options.out / "features.csv");
   FramesFile frames(options.out / "frames.csv");
   Gallery gallery(frame_count(options, *source));
 
+  std::string yaml;
+  nlohmann::ordered_json stages;
   const RunRecord record = with_filter(options, source->camera(), [&](auto filter) {
+    describe(filter, yaml, stages);
     return with_backend(options, source->camera(), [&](auto&& make_tracker) {
       return run_frames(options, *source, *detector, std::move(filter), make_tracker(), make_tracker(),
                         RunOutput{features, frames, gallery});
     });
   });
   const Figures figures = evaluate(record);
-  const std::string json = report_json(options, record, figures);
+  const std::string json = report_json(options, record, figures, stages);
   const std::string html = report_html(options, record, figures, gallery.overlays());
 
   stillpoint::write_trajectory(options.out / "trajectory.txt", record.filtered);
   stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
   features.commit();
   frames.commit();
+  if (!yaml.empty()) write_whole(options.out / "options.yaml", yaml);
   write_whole(options.out / "report.json", json);
   write_whole(options.out / "report.html", html);
   for (const std::string& sentence : sentences(options, record, figures)) std::printf("%s\n", sentence.c_str());

@@ -62,6 +62,12 @@ struct SwitchedMotion {
   }
 };
 
+/// Options in files are those of the default motion.
+template <class Visit>
+void each_option(SwitchedMotion& motion, Visit& visit) {
+  each_option(motion.support, visit);
+}
+
 /// Eq. 9 of each older frame in which a feature was found, the mean of the two greatest, in place of likelihoods.
 struct SwitchedScore : stillpoint::SightingScore {
   bool is_whitened = true;

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "options.hpp"
 #include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/filter_frame.hpp"
+#include "stillpoint/options/options_file.hpp"
 #include "stillpoint/policies.hpp"
 #include "stillpoint/prior/async_detector.hpp"
 #include "watched_prior.hpp"
@@ -33,18 +35,31 @@ inline stillpoint::AnyDepthNoise depth_noise(const Options& options, const still
   return stillpoint::KinectNoise{};
 }
 
+/// A filter set as the command line has it, then by the file of options, then by what the command line says expressly.
+/// @param set  called as set(filter, says): applies the values of those arguments for which says("--name") is true
+template <class Policies, class Set>
+stillpoint::FrameFilter<Policies> make_filter(const Options& options, const stillpoint::Camera& camera,
+                                              const Set& set) {
+  stillpoint::FrameFilter<Policies> filter(camera);
+  set(filter, [](std::string_view) { return true; });
+  if (options.stages.empty()) return filter;
+  stillpoint::read_options(options.stages, filter);
+  set(filter, [&options](std::string_view name) { return options.is_given(name); });
+  return filter;
+}
+
 template <class Policies>
 stillpoint::FrameFilter<Policies> paper_filter(const Options& options, const stillpoint::Camera& camera) {
-  stillpoint::FrameFilter<Policies> filter(camera);
-  filter.depth_noise = depth_noise(options, camera);
-  filter.scorer.options.printed_eq8 = options.prints_error("eq8");
-  if constexpr (std::is_same_v<typename Policies::EgoMotion, stillpoint::EpipolarMotion>) {
-    filter.ego_motion.options.printed_eq3 = options.prints_error("eq3");
-    filter.ego_motion.options.unit_translation = options.prints_error("unit-t");
-  }
-  filter.ego_motion.options.seed = options.seed;
-  filter.classifier.options.seed = options.seed;
-  return filter;
+  return make_filter<Policies>(options, camera, [&](auto& filter, const auto& says) {
+    if (says("--depth-noise")) filter.depth_noise = depth_noise(options, camera);
+    if (says("--seed")) filter.ego_motion.options.seed = filter.classifier.options.seed = options.seed;
+    if (!says("--paper-as-printed")) return;
+    filter.scorer.options.printed_eq8 = options.prints_error("eq8");
+    if constexpr (std::is_same_v<typename Policies::EgoMotion, stillpoint::EpipolarMotion>) {
+      filter.ego_motion.options.printed_eq3 = options.prints_error("eq3");
+      filter.ego_motion.options.unit_translation = options.prints_error("unit-t");
+    }
+  });
 }
 
 inline SwitchedMotion::Kind motion_kind(const std::string& name) {
@@ -55,11 +70,11 @@ inline SwitchedMotion::Kind motion_kind(const std::string& name) {
 
 template <class Policies>
 stillpoint::FrameFilter<Policies> default_filter(const Options& options, const stillpoint::Camera& camera) {
-  stillpoint::FrameFilter<Policies> filter(camera);
-  filter.depth_noise = depth_noise(options, camera);
-  filter.gate.options.false_positive_rate = options.false_positive_rate;
-  support_motion(filter.ego_motion).options.seed = options.seed;
-  filter.classifier.options.seed = options.seed;
+  auto filter = make_filter<Policies>(options, camera, [&](auto& set, const auto& says) {
+    if (says("--depth-noise")) set.depth_noise = depth_noise(options, camera);
+    if (says("--false-positive-rate")) set.gate.options.false_positive_rate = options.false_positive_rate;
+    if (says("--seed")) support_motion(set.ego_motion).options.seed = set.classifier.options.seed = options.seed;
+  });
   if constexpr (std::is_base_of_v<SwitchedPolicies, Policies>) {
     filter.ego_motion.kind = motion_kind(options.ego_motion);
     filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;

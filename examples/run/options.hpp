@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -30,6 +31,8 @@ struct Options {
   std::filesystem::path tum;
   std::filesystem::path out = "stillpoint_out";
   std::filesystem::path camera;  ///< empty: the sequence's own
+  std::filesystem::path stages;  ///< options of the filter's stages; empty: as they come
+  bool calibrate = false;        ///< measures noise and writes options, in place of a run
   std::string depth_noise = "kinect";
   std::string policies = "default";
   std::string ego_motion = "default";
@@ -49,7 +52,9 @@ struct Options {
   std::uint64_t seed = stillpoint::Random::kDefaultSeed;
   int threads = 1;
   bool quiet = false;
+  std::vector<std::string> given;  ///< the arguments that were there, as --name
 
+  bool is_given(std::string_view name) const { return std::find(given.begin(), given.end(), name) != given.end(); }
   bool has_network() const { return prior != "none" && prior != "boxes" && prior != "labels"; }
   /// As reports have it: a network by the name of its file.
   std::string prior_name() const { return has_network() ? std::filesystem::path(prior).filename().string() : prior; }
@@ -204,9 +209,14 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
   if (!options.has_network())
     for (const char* name : {"--detector-layout", "--classes", "--sync"})
       if (given(name)) throw stillpoint::Error(std::string(name) + ": found without a network, expected --prior MODEL");
+  if (options.calibrate)
+    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend"})
+      if (given(name))
+        throw stillpoint::Error(std::string(name) +
+                                ": found with --calibrate, which measures with the default policies and no tracker");
   if (options.prior == "labels")
-    for (const char* name :
-         {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise", "--false-positive-rate", "--without"})
+    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--depth-noise",
+                             "--false-positive-rate", "--without", "--options"})
       if (given(name))
         throw stillpoint::Error(std::string(name) +
                                 ": found with --prior labels, which looks the answer up and filters nothing; expected "
@@ -236,6 +246,15 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
   add_path("--camera", "FILE", options.camera, "the camera, where the folder has no camera.yaml or another is wanted")
       ->default_str("");
+  add_path(
+      "--options", "FILE", options.stages,
+      "options of the filter's stages, as an earlier run or --calibrate left them in options.yaml; what is said here "
+      "as well goes before the file")
+      ->default_str("");
+  app.add_flag(
+      "--calibrate", options.calibrate,
+      "measures the noise of pixels and depths on a scene in which nothing moves, and writes OUT/options.yaml, in "
+      "place of a run");
   detail::add_choice(app, "--depth-noise", options.depth_noise, {"kinect", "stereo", "tof"}, "how wrong the depth is");
   detail::add_choice(app, "--policies", options.policies, {"default", "paper"},
                      "which set of stages: the corrected method or the paper's");
@@ -300,6 +319,8 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
     const std::string message = error.what();
     throw stillpoint::Error(message.substr(0, message.find('\n')) + " (stillpoint_run --help lists the arguments)");
   }
+  for (const CLI::Option* option : app.get_options())
+    if (option->count() > 0) options.given.push_back("--" + option->get_lnames().front());
   detail::require_consistent(app, options);
   // The paper tests features in boxes only: without them its demo would have nothing to show.
   if (options.demo && options.policies == "paper" && prior->empty()) options.prior = "boxes";
@@ -321,6 +342,7 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
   const bool all_frames = options.frames == std::numeric_limits<int>::max();
   return {{"sequence", options.demo ? "--demo" : "--tum " + options.tum.string()},
           {"--camera", options.camera.empty() ? "the sequence's own" : options.camera.string()},
+          {"--options", options.stages.empty() ? "as they come" : options.stages.string()},
           {"--depth-noise", options.depth_noise},
           {"--policies", options.policies},
           {"--ego-motion", options.ego_motion},

@@ -69,7 +69,11 @@ inline nlohmann::ordered_json detector_json(const RunRecord& run, const Figures&
 
 /// @return text with a line's end. Key by key: shares from 0 to 1, units in the keys' names, labels' `moving` and
 ///         `background` the number of features that the shares are of.
-inline std::string report_json(const Options& options, const RunRecord& run, const Figures& figures) {
+/// @param stages  options of the filter's stages; null where nothing filtered
+inline std::string report_json(const Options& options, const RunRecord& run, const Figures& figures,
+                               const nlohmann::ordered_json& stages) {
+  nlohmann::ordered_json arguments = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : settings(options)) arguments[name] = value;
   nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
   for (const auto& [status, frames] : figures.statuses) statuses[status] = frames;
   nlohmann::ordered_json times = nlohmann::ordered_json::object();
@@ -98,7 +102,9 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
       {"rpe",
        {{"frame", detail::relative_error_json(figures.filtered.rpe_frame, figures.unfiltered.rpe_frame)},
         {"second", detail::relative_error_json(figures.filtered.rpe_second, figures.unfiltered.rpe_second)}}},
-      {"labels", detail::labels_json(run)}};
+      {"labels", detail::labels_json(run)},
+      {"arguments", arguments},
+      {"options", stages}};
   return report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) +
          '\n';  // folder names may be any bytes
 }

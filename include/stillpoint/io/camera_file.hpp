@@ -64,7 +64,7 @@ inline AnyDistortion read_distortion(const YamlFile& fields) {
 /// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
 ///         three, or coefficients are given that the model does not have.
 inline RgbdCamera read_camera(const std::filesystem::path& file) {
-  const detail::YamlFile fields(file);
+  const YamlFile fields(file);
   const char* const focal_length = "a positive focal length in pixels";
   const char* const principal_point = "a finite principal point in pixels";
   const double fx = fields.positive("fx", focal_length);

@@ -19,8 +19,8 @@
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/atomic_file.hpp"
-#include "stillpoint/io/stage_options.hpp"
 #include "stillpoint/io/yaml_file.hpp"
+#include "stillpoint/options/stage_options.hpp"
 
 namespace stillpoint {
 

@@ -17,8 +17,8 @@
 #include <utility>
 
 #include "stillpoint/filter_frame.hpp"
-#include "stillpoint/io/core_options.hpp"
-#include "stillpoint/io/paper_stage_options.hpp"
+#include "stillpoint/options/core_options.hpp"
+#include "stillpoint/options/paper_stage_options.hpp"
 #include "stillpoint/policies.hpp"
 
 namespace stillpoint {

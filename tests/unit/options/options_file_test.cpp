@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/io/options_file.hpp"
+#include "stillpoint/options/options_file.hpp"
 
 #include <gtest/gtest.h>
 

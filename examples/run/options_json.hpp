@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The options of a filter's stages as JSON, for report.json.
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/options/stage_options.hpp"
+
+namespace stillpoint_run {
+
+/// A map of the options that are visited, groups as maps of their own.
+class OptionsJson {
+ public:
+  template <class T>
+  void operator()(const char* name, T& value) {
+    if constexpr (std::is_arithmetic_v<T>) {
+      map[name] = value;
+    } else if constexpr (stillpoint::has_options<T, OptionsJson>::value) {
+      OptionsJson nested;
+      each_option(value, nested);
+      map[name] = nested.map;
+    }
+  }
+  template <class T>
+  void positive(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T>
+  void any(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T, class... Words>
+  void choice(const char* name, T& value, Words... words) {
+    const std::array<const char*, sizeof...(Words)> all{words...};
+    map[name] = all[static_cast<std::size_t>(value)];
+  }
+
+  nlohmann::ordered_json map = nlohmann::ordered_json::object();
+};
+
+template <class Policies>
+nlohmann::ordered_json options_json(stillpoint::FrameFilter<Policies>& filter) {
+  OptionsJson json;
+  each_option(filter, json);
+  return json.map;
+}
+
+}  // namespace stillpoint_run
