@@ -96,15 +96,21 @@ class Engine {
     std::copy(of_feature.begin(), of_feature.end(), weights);
   }
 
-  void paint_mask(int margin_px, unsigned char* pixels, std::size_t stride_bytes) {
-    const auto width = static_cast<std::size_t>(filter_.camera.width());
-    if (result_ != nullptr) result_->mask(mask_, std::max(margin_px, 0));
-    for (int v = 0; v < filter_.camera.height(); ++v, pixels += stride_bytes) {
-      if (result_ != nullptr)
-        std::memcpy(pixels, mask_.row<std::uint8_t>(v), width);
-      else
-        std::memset(pixels, 255, width);
-    }
+  void paint_mask(int margin_px, const Pixels& pixels) {
+    if (result_ == nullptr) return fill(pixels);
+    result_->mask(mask_, std::max(margin_px, 0));
+    copy_mask(pixels);
+  }
+
+  void paint_predicted_mask(double timestamp_s, int margin_px, const Pixels& pixels) {
+    filter_.predicted_keep_mask(timestamp_s, std::max(margin_px, 0), mask_);
+    copy_mask(pixels);
+  }
+
+  /// All is kept.
+  void fill(const Pixels& pixels) const noexcept {
+    for (int v = 0; v < filter_.camera.height(); ++v)
+      std::memset(pixels.data + static_cast<std::size_t>(v) * pixels.stride_bytes, 255, width());
   }
 
   void set_boxes(const Box* boxes, std::size_t count, const double* timestamp_s) {
@@ -141,6 +147,13 @@ class Engine {
   }
 
  private:
+  std::size_t width() const noexcept { return static_cast<std::size_t>(filter_.camera.width()); }
+
+  void copy_mask(const Pixels& pixels) {
+    for (int v = 0; v < filter_.camera.height(); ++v)
+      std::memcpy(pixels.data + static_cast<std::size_t>(v) * pixels.stride_bytes, mask_.row<std::uint8_t>(v), width());
+  }
+
   stillpoint::FrameFilter<> filter_;
   double depth_factor_;
   std::vector<stillpoint::Vector2f> pixels_;
@@ -177,8 +190,16 @@ void copy_weights(const Engine& engine, float* weights, std::size_t size) noexce
   std::fill_n(weights, size, 1.0f);
 }
 
-void paint_mask(Engine& engine, int margin_px, unsigned char* pixels, std::size_t stride_bytes) noexcept {
-  engine.paint_mask(margin_px, pixels, stride_bytes);
+void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept try {
+  engine.paint_mask(margin_px, pixels);
+} catch (...) {
+  engine.fill(pixels);
+}
+
+void paint_predicted_mask(Engine& engine, double timestamp_s, int margin_px, const Pixels& pixels) noexcept try {
+  engine.paint_predicted_mask(timestamp_s, margin_px, pixels);
+} catch (...) {
+  engine.fill(pixels);
 }
 
 void set_boxes(Engine& engine, const Box* boxes, std::size_t count, const double* timestamp_s) noexcept try {

@@ -55,9 +55,15 @@ class Filter {
 
   /// Paints the last answer as CV_8UC1 of the camera's size: 255 keeps, 0 within `margin_px` of a dropped feature.
   /// Before the first frame all of it is 255.
-  void mask(cv::Mat& mask, int margin_px = 12) const {
-    mask.create(height_, width_, CV_8UC1);
-    detail::paint_mask(*engine_, margin_px, mask.data, mask.step[0]);
+  void mask(cv::Mat& mask, int margin_px = 12) const { detail::paint_mask(*engine_, margin_px, pixels_of(mask)); }
+
+  /// Paints where the coming frame should be looked at, as CV_8UC1 of the camera's size: 255 keeps, 0 drops. For a host
+  /// that extracts features under a mask, so that its budget goes to what stands still; all of it is 255 where the last
+  /// frame was not judged. It knows no keep-floor.
+  /// @param timestamp_s  of the coming frame
+  /// @param margin_px    more is dropped around what moves; an extractor's patch should not reach into it
+  void predicted_mask(double timestamp_s, cv::Mat& mask, int margin_px = 12) const {
+    detail::paint_predicted_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
   }
 
   /// Boxes of a detector in the coming frame. None: no new answer.
@@ -88,6 +94,12 @@ class Filter {
   static detail::Image view(const cv::Mat& image) {
     if (image.empty() || image.dims != 2) return {nullptr, 0, 0, 0, 0};
     return {image.data, image.cols, image.rows, image.step[0], image.type()};
+  }
+
+  /// The mask, made a gray image of the camera's size.
+  detail::Pixels pixels_of(cv::Mat& mask) const {
+    mask.create(height_, width_, CV_8UC1);
+    return {mask.data, mask.step[0]};
   }
 
   const Result& filter(const cv::Mat& image, const cv::Mat& depth, double timestamp_s, const detail::Points& points) {

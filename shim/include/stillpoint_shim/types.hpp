@@ -92,6 +92,12 @@ struct Points {
   std::size_t stride_bytes, count;
 };
 
+/// A gray image of the host's to write to.
+struct Pixels {
+  unsigned char* data;
+  std::size_t stride_bytes;
+};
+
 /// The filter behind the border; its type is complete in the library alone.
 class Engine;
 
@@ -106,8 +112,10 @@ STILLPOINT_SHIM_API const char* filter_frame(Engine& engine, const Image& image,
                                              const Points& points, unsigned char* keep, bool& judged) noexcept;
 /// Of the last frame; `size` is its number of key points.
 STILLPOINT_SHIM_API void copy_weights(const Engine& engine, float* weights, std::size_t size) noexcept;
-STILLPOINT_SHIM_API void paint_mask(Engine& engine, int margin_px, unsigned char* pixels,
-                                    std::size_t stride_bytes) noexcept;
+/// Of the camera's size: 255 keeps, 0 drops.
+STILLPOINT_SHIM_API void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept;
+STILLPOINT_SHIM_API void paint_predicted_mask(Engine& engine, double timestamp_s, int margin_px,
+                                              const Pixels& pixels) noexcept;
 /// @param timestamp_s  of the frame that was looked at; null: the coming one
 STILLPOINT_SHIM_API void set_boxes(Engine& engine, const Box* boxes, std::size_t count,
                                    const double* timestamp_s) noexcept;
