@@ -50,15 +50,15 @@ struct CalibrationRecord {
 
 namespace detail {
 
-/// Sets what the stages assume. Noise of pixels is measured in every frame, up to what is assumed: a camera that is
-/// noisier needs a higher limit, a better one none that is lower.
+/// Sets what the stages assume. The noise of pixels is measured in every frame, up to a limit: a camera that is noisier
+/// than those by which the limits were set gets higher ones, a better camera needs none.
 template <class Policies>
 void take_over(const stillpoint::CalibratedNoise& noise, stillpoint::FrameFilter<Policies>& filter) {
+  constexpr double kUsual_px = 0.41;  // kitchen_static's median (docs/tuning.md)
+  const double noisier = std::max(noise.median_pixel_sigma / kUsual_px, 1.0);
   filter.depth_noise = noise.depth_noise;
-  double& of_places = filter.scorer.options.pixel_sigma;
-  of_places = std::max(of_places, filter.scorer.options.motion_sigmas * noise.worst_pixel_sigma);
-  double& of_corners = filter.ego_motion.constraints.pixel_sigma;
-  of_corners = std::max(of_corners, 2 * noise.worst_pixel_sigma);
+  filter.scorer.options.pixel_sigma *= noisier;
+  filter.ego_motion.constraints.pixel_sigma *= noisier;
 }
 
 }  // namespace detail

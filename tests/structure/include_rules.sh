@@ -31,8 +31,8 @@ allowed() {
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;
     detectors) rule='detectors/ includes core/, prior/, its own folder, OpenCV and networks'\'' libraries'
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/prior/*"' ;;
-    adapters) rule='adapters/ includes the host, core/, the pipeline and its own folder'
-      printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
+    adapters) rule='adapters/ includes the host, core/, verdict/ (what a host takes), the pipeline and its own folder'
+      printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/verdict/*"' '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
     options) rule='options/ includes core/, io/, the pipeline and the stages'
       printf '%s\n' "$std" "$opencv" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
         '"stillpoint/policies.hpp"' "${stages[@]}" ;;

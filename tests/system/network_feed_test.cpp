@@ -61,7 +61,7 @@ TEST(NetworkFeed, GoesOnWhereTheNetworkFails) {
   RunRecord run;
   run.detector = feed.finish();
   const Figures figures = evaluate(run);
-  const nlohmann::json report = nlohmann::json::parse(report_json(options, run, figures));
+  const nlohmann::json report = nlohmann::json::parse(report_json(options, run, figures, nullptr));
   EXPECT_EQ(report["prior"], "moody.onnx");
   EXPECT_EQ(report["detector"]["frames"]["detected"], 2);
   EXPECT_EQ(report["detector"]["frames"]["failed"], 3);

@@ -22,8 +22,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> kFiles = {"features.csv", "frames.csv",     "report.html",
-                                         "report.json",  "trajectory.txt", "trajectory_unfiltered.txt"};
+const std::vector<std::string> kFiles = {"features.csv",
+                                         "frames.csv",
+                                         "options.yaml",
+                                         "report.html",
+                                         "report.json",
+                                         "trajectory.txt",
+                                         "trajectory_unfiltered.txt"};
 constexpr int kFrames = 8;
 
 void expect_features_file(const fs::path& file, std::size_t frame_count) {
@@ -106,7 +111,9 @@ void expect_report(const Json& report, int frame_count) {
                                       "ate_rmse_unfiltered_m",
                                       "labels",
                                       "frames_without_pose",
-                                      "improvement_percent"};
+                                      "improvement_percent",
+                                      "arguments",
+                                      "options"};
   std::set<std::string> found;
   for (const auto& [key, value] : report.items()) found.insert(key);
   ASSERT_EQ(found, keys);

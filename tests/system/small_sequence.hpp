@@ -18,18 +18,14 @@
 
 namespace system_test {
 
-/// Writes the first frames of the synthetic demo, 160 × 120 pixels, with all that such a folder can hold.
-inline void write_small_sequence(const fs::path& folder, int frame_count = 4) {
-  stillpoint::synthetic::SceneOptions options;
-  options.frames = frame_count;
-  options.width = 160;
-  options.height = 120;
-  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::demo(options));
+/// Writes a synthetic scene with all that such a folder can hold.
+inline void write_scene(const fs::path& folder, const stillpoint::synthetic::Scene& scene) {
+  stillpoint::SyntheticSequence sequence(scene);
   for (const char* name : {"rgb", "depth", "labels"}) fs::create_directories(folder / name);
   std::string associations, boxes = "# timestamp class_name confidence x y w h\n";
   stillpoint::Trajectory truth;
   stillpoint::SyntheticFrame frame;
-  for (int i = 0; i < frame_count; ++i) {
+  for (int i = 0; i < sequence.size(); ++i) {
     sequence.render(i, frame);
     const std::string time = stillpoint::format_fixed(frame.timestamp_s, 6), png = time + ".png";
     cv::imwrite((folder / "rgb" / png).string(), stillpoint::as_mat(frame.colour.view()));
@@ -48,7 +44,17 @@ inline void write_small_sequence(const fs::path& folder, int frame_count = 4) {
   const auto number = [](double value) { return stillpoint::format_fixed(value, 3); };
   write_text(folder / "camera.yaml", "%YAML:1.0\n---\nfx: " + number(camera.fx()) + "\nfy: " + number(camera.fy()) +
                                          "\ncx: " + number(camera.cx()) + "\ncy: " + number(camera.cy()) +
-                                         "\nwidth: 160\nheight: 120\ndepth_factor: 5000.0\n");
+                                         "\nwidth: " + std::to_string(camera.width()) +
+                                         "\nheight: " + std::to_string(camera.height()) + "\ndepth_factor: 5000.0\n");
+}
+
+/// The first frames of the demo, 160 × 120 pixels.
+inline void write_small_sequence(const fs::path& folder, int frame_count = 4) {
+  stillpoint::synthetic::SceneOptions options;
+  options.frames = frame_count;
+  options.width = 160;
+  options.height = 120;
+  write_scene(folder, stillpoint::synthetic::demo(options));
 }
 
 }  // namespace system_test

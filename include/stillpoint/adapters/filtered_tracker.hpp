@@ -6,18 +6,21 @@
 //
 // What the two sides must offer:
 //
-// | who      | member                                                          | meaning |
-// |----------|-----------------------------------------------------------------|---------------------------------------|
-// | Backend  | Features extract(const FrameView&)                              | a frame's key points, and whatever |
-// |          |                                                                 | arrays belong to them | | Features |
-// keypoints                                                       | contiguous, with keypoint_traits      | | Features
-// | void compact(span<const std::uint8_t> keep)                     | drops entry i of every array where    | | | |
-// keep[i] is 0; core/compact.hpp does it| | Backend  | std::optional<Pose> track(const FrameView&, const Features&) |
-// world_from_camera of that frame, or   | |          | | nothing: the next frame is tried anew | | Backend  | void
-// feedback(const Pose& world_from_camera)                    | optional: the pose it returned        | | Filter   |
-// Result filter_frame(const FrameView&, const Keypoints&)         | judges them; may return a reference   | | Result |
-// keep(), converts to span<const std::uint8_t>                    | one byte a key point, 0 drops         | | Filter |
-// void feedback(const Pose& world_from_camera)                    | optional: helps to predict            |
+// clang-format off
+// | who      | member                                                 | meaning                                       |
+// |----------|--------------------------------------------------------|-----------------------------------------------|
+// | Backend  | Features extract(const FrameView&)                     | a frame's key points and their arrays         |
+// | Features | keypoints                                              | contiguous, with keypoint_traits              |
+// | Features | void compact(span<const std::uint8_t> keep)            | drops entry i of every array where keep[i]    |
+// |          |                                                        | is 0; core/compact.hpp does it                |
+// | Backend  | std::optional<Pose> track(const FrameView&,            | world_from_camera of that frame, or nothing:  |
+// |          |                           const Features&)             | the next frame is tried anew                  |
+// | Backend  | void feedback(const Pose& world_from_camera)           | optional: the pose it returned                |
+// | Filter   | Result filter_frame(const FrameView&,                  | judges them; may return a reference           |
+// |          |                     const Keypoints&)                  |                                               |
+// | Result   | keep(), converts to span<const std::uint8_t>           | one byte a key point, 0 drops                 |
+// | Filter   | void feedback(const Pose& world_from_camera)           | optional: helps to predict                    |
+// clang-format on
 //
 // Each is called once a frame, in the order of `track` below, `feedback` only where there is a pose.
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/span.hpp"
@@ -85,6 +86,13 @@ void require_aligned(std::size_t keep_size, std::size_t position, const Array& a
 
 }  // namespace detail
 
+/// How many flags are not 0.
+inline std::size_t kept_count(span<const std::uint8_t> keep) noexcept {
+  std::size_t kept = 0;
+  for (const std::uint8_t flag : keep) kept += flag != 0;
+  return kept;
+}
+
 /// Removes every entry whose flag is 0 from all arrays; the others keep their order.
 /// @param keep    one byte an entry, 0 drops
 /// @param arrays  vectors or row matrices, each with keep.size() entries
@@ -95,9 +103,19 @@ std::size_t compact(span<const std::uint8_t> keep, Arrays&... arrays) {
   std::size_t position = 0;
   (detail::require_aligned(keep.size(), ++position, arrays), ...);
   (detail::compact_one(keep, arrays), ...);
-  std::size_t kept = 0;
-  for (const std::uint8_t flag : keep) kept += flag != 0;
-  return kept;
+  return kept_count(keep);
+}
+
+/// Where each entry goes in a compaction: for arrays that hold indices into the compacted ones, and hosts that keep
+/// more arrays than `compact` was given.
+/// @param keep        one byte an entry, 0 drops
+/// @param old_to_new  becomes one index an entry, -1 for a dropped one; its memory is reused
+/// @return how many are left. O(n).
+inline std::size_t compaction_map(span<const std::uint8_t> keep, std::vector<int>& old_to_new) {
+  old_to_new.resize(keep.size());
+  int kept = 0;
+  for (std::size_t i = 0; i < keep.size(); ++i) old_to_new[i] = keep[i] != 0 ? kept++ : -1;
+  return static_cast<std::size_t>(kept);
 }
 
 }  // namespace stillpoint

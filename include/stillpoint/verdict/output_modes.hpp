@@ -45,15 +45,20 @@ inline void flags_from_weights(span<const float> weights, std::vector<std::uint8
   for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = weights[i] >= least ? 1 : 0;
 }
 
+/// Is the mask at the rounded pixel 0? What lies outside of the mask, and NaN, is not dropped.
+/// @param mask   gray8, 255 keeps, 0 drops; an empty one drops nothing
+/// @param pixel  of the mask
+inline bool mask_drops(const ImageView& mask, const Vector2f& pixel) noexcept {
+  if (!(mask.border_distance_px(pixel.x(), pixel.y()) >= -0.5f)) return false;  // NaN too
+  const auto u = static_cast<int>(std::lround(pixel.x())), v = static_cast<int>(std::lround(pixel.y()));
+  return mask.contains(u, v) && mask.row<std::uint8_t>(v)[u] == 0;
+}
+
 /// One byte a feature: 1 where the mask at its rounded pixel is not 0. What lies outside of the mask is kept.
 /// @param mask  gray8, 255 keeps, 0 drops
 inline void flags_from_mask(const ImageView& mask, span<const Vector2f> pixels, std::vector<std::uint8_t>& keep) {
-  keep.assign(pixels.size(), 1);
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    if (!(mask.border_distance_px(pixels[i].x(), pixels[i].y()) >= -0.5f)) continue;  // NaN too
-    const auto u = static_cast<int>(std::lround(pixels[i].x())), v = static_cast<int>(std::lround(pixels[i].y()));
-    if (mask.contains(u, v)) keep[i] = mask.row<std::uint8_t>(v)[u] != 0 ? 1 : 0;
-  }
+  keep.resize(pixels.size());
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = mask_drops(mask, pixels[i]) ? 0 : 1;
 }
 
 /// A copy of the depth image with 0, no depth, where the mask drops: for hosts that take depth and no mask.

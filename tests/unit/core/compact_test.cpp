@@ -181,5 +181,38 @@ TEST(Compact, MovesEachEntryAtMostOnce) {
   EXPECT_EQ(Instrumented::moves, 0u) << "nothing to drop, nothing to move";
 }
 
+TEST(CompactionMap, SendsEachEntryWhereCompactPutsIt) {
+  std::vector<int> old_to_new = {7, 7, 7, 7, 7, 7};  // reused, whatever it held
+  EXPECT_EQ(compaction_map(Flags{0, 1, 255, 0, 1}, old_to_new), 3u);
+  EXPECT_EQ(old_to_new, (std::vector<int>{-1, 0, 1, -1, 2}));
+  EXPECT_EQ(compaction_map(Flags{}, old_to_new), 0u);
+  EXPECT_TRUE(old_to_new.empty());
+
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    Random random(seed);
+    Flags keep(random.index(60));
+    for (std::uint8_t& flag : keep) flag = random.uniform() < 0.5 ? 1 : 0;
+    std::vector<int> ids;
+    for (std::size_t i = 0; i < keep.size(); ++i) ids.push_back(static_cast<int>(i));
+    const std::size_t kept = compact(keep, ids);
+    ASSERT_EQ(compaction_map(keep, old_to_new), kept);
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+      if (keep[i] == 0)
+        ASSERT_EQ(old_to_new[i], -1);
+      else
+        ASSERT_EQ(ids[static_cast<std::size_t>(old_to_new[i])], static_cast<int>(i));
+    }
+  }
+}
+
+TEST(CompactionMap, AllocatesOnceForTheLargestFrame) {
+  std::vector<int> old_to_new;
+  compaction_map(Flags(1000, 1), old_to_new);
+  const int* const memory = old_to_new.data();
+  compaction_map(Flags(10, 0), old_to_new);
+  compaction_map(Flags(1000, 1), old_to_new);
+  EXPECT_EQ(old_to_new.data(), memory);
+}
+
 }  // namespace
 }  // namespace stillpoint
