@@ -21,6 +21,8 @@ set(DOXYGEN_JAVADOC_AUTOBRIEF YES)
 set(DOXYGEN_EXTRACT_ALL YES)
 set(DOXYGEN_HAVE_DOT NO)
 set(DOXYGEN_QUIET YES)
+set(DOXYGEN_FILTER_PATTERNS "\"*.md=sed -E -f '${PROJECT_SOURCE_DIR}/cmake/links_within_pages.sed'\"")
+set(DOXYGEN_VERBATIM_VARS DOXYGEN_FILTER_PATTERNS)
 # A comment may leave out a parameter that its type and name explain; what it says has to be true.
 set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)

@@ -17,7 +17,7 @@ function end_block(    k, declares, text) {
       includes = includes at(first + k - 1) code[k] "\n"
       code[k] = ""
     } else if (declares < 0 && code[k] !~ /^[ \t]*(\/\/.*)?$/) {
-      declares = code[k] ~ /^[ \t]*(struct|class|template|namespace|enum|using|inline|static)[ \t<]/
+      declares = code[k] ~ /^[ \t]*(struct|class|template|namespace|enum|using|inline|static|void)[ \t<]/
     }
     text = text code[k] "\n"
   }
