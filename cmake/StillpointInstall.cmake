@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn|onnxruntime]): one export set a component, so that a
+# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn|onnxruntime|shim]): one export set a component, so that a
 # host that asks for `core` never looks for OpenCV.
 
 include(CMakePackageConfigHelpers)
@@ -15,6 +15,10 @@ list(JOIN STILLPOINT_COMPONENTS " " package_components)
 
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/stillpoint" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
   FILES_MATCHING PATTERN "*.hpp")
+if(TARGET stillpoint_shim)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/shim/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+    FILES_MATCHING PATTERN "*.hpp")
+endif()
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/stillpoint")
 
 set(component_targets_core stillpoint_core)
@@ -22,6 +26,7 @@ set(component_targets_stillpoint stillpoint)
 set(component_targets_io stillpoint_io)
 set(component_targets_dnn stillpoint_dnn)
 set(component_targets_onnxruntime stillpoint_onnxruntime)
+set(component_targets_shim stillpoint_shim)
 foreach(component IN LISTS STILLPOINT_COMPONENTS)
   install(TARGETS ${component_targets_${component}} EXPORT stillpoint-${component})
   install(EXPORT stillpoint-${component} NAMESPACE stillpoint:: DESTINATION "${package_dir}")

@@ -39,6 +39,12 @@ if(STILLPOINT_WITH_OPENCV)
     list(APPEND STILLPOINT_COMPONENTS dnn)
   endif()
 
+  # stillpoint::shim: the compiled front for hosts in C++11. It takes the targets above, and nobody else's.
+  if(STILLPOINT_BUILD_SHIM)
+    add_subdirectory("${PROJECT_SOURCE_DIR}/shim" "${PROJECT_BINARY_DIR}/shim")
+    list(APPEND STILLPOINT_COMPONENTS shim)
+  endif()
+
   # stillpoint::onnxruntime: detectors/onnxruntime.hpp.
   if(STILLPOINT_ONNXRUNTIME)
     add_library(stillpoint_onnxruntime INTERFACE)

@@ -45,7 +45,7 @@ class FrameHistory {
   /// The filter's own chained pose of the frame to which `motion` leads from the last one.
   Pose filter_from_current(const Motion& motion) const {
     return empty() ? Pose::Identity()
-                   : orthonormalized(back(1).filter_from_camera * motion.current_from_reference.inverse());
+                   : orthonormalized(back(1).filter_from_camera * inverted(motion.current_from_reference));
   }
 
   /// Copies a frame in; the oldest is overwritten when the ring is full. Where its motion is not known, the older ones

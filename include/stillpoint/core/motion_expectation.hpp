@@ -18,7 +18,7 @@ class MotionExpectation {
   void feedback(const Pose& world_from_camera) {
     if (!world_from_camera.matrix().allFinite()) return;
     world_from_last_ = world_from_camera;
-    if (world_from_second_last_) last_motion_ = orthonormalized(world_from_camera.inverse() * *world_from_second_last_);
+    if (world_from_second_last_) last_motion_ = orthonormalized(inverted(world_from_camera) * *world_from_second_last_);
   }
 
   /// What an IMU or wheels say of the motion to the coming frame; holds for that one.

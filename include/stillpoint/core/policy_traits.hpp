@@ -84,6 +84,11 @@ template <class P> struct is_camera<P, std::enable_if_t<
     detail::returns<int, decltype(std::declval<const P&>().width())> &&
     detail::returns<int, decltype(std::declval<const P&>().height())>>> : std::true_type {};
 
+template <class P, class = void> struct names_all_stages : std::false_type {};
+template <class P> struct names_all_stages<P, std::void_t<typename P::Camera, typename P::DepthNoise,
+    typename P::DepthLookup, typename P::Prior, typename P::Matcher, typename P::EgoMotion, typename P::Scorer,
+    typename P::Gate, typename P::Classifier, typename P::Memory, typename P::KeepFloor>> : std::true_type {};
+
 template <class Policies, class = void> struct has_history_length : std::false_type {};
 template <class Policies> struct has_history_length<Policies, std::enable_if_t<
     std::is_integral_v<decltype(Policies::kHistoryLength)> && (Policies::kHistoryLength > 0)>> : std::true_type {};
@@ -93,13 +98,17 @@ template <class Policies> struct has_history_length<Policies, std::enable_if_t<
 /// Instantiated by `FrameFilter`: one readable error for each stage that does not keep its contract.
 template <class Policies>
 struct PolicyContract {
+  static_assert(
+      names_all_stages<Policies>::value,
+      "stillpoint: Policies must name a type for each of Camera, DepthNoise, DepthLookup, Prior, Matcher, "
+      "EgoMotion, Scorer, Gate, Classifier, Memory and KeepFloor; inherit from DefaultPolicies and name what is "
+      "yours; see policies.hpp");
   using Camera = typename Policies::Camera;
   static_assert(
       is_camera<Camera>::value,
       "stillpoint: Policies::Camera must offer Vector2d project(const Vector3d&) const, Vector3d back_project(const "
       "Vector2d&, double) const, Vector2d distort(const Vector2d&) const, Vector2d undistort(const Vector2d&) const, "
-      "int "
-      "width() const and int height() const; see core/camera.hpp");
+      "int width() const and int height() const; see core/camera.hpp");
   static_assert(
       is_depth_noise<typename Policies::DepthNoise>::value,
       "stillpoint: Policies::DepthNoise must offer double sigma(double depth_m) const; see core/depth_noise.hpp");

@@ -3,7 +3,8 @@
 
 # After the library was added: nothing of the host's is other than before.
 
-if(CMAKE_BUILD_TYPE OR DEFINED BUILD_TESTING OR DEFINED CMAKE_CXX_STANDARD OR CMAKE_CXX_FLAGS)
+if(CMAKE_BUILD_TYPE OR DEFINED BUILD_TESTING OR DEFINED CMAKE_CXX_STANDARD OR
+   NOT CMAKE_CXX_FLAGS STREQUAL flags_before)
   message(FATAL_ERROR "the library set CMAKE_BUILD_TYPE '${CMAKE_BUILD_TYPE}', BUILD_TESTING '${BUILD_TESTING}', "
     "CMAKE_CXX_STANDARD '${CMAKE_CXX_STANDARD}' or CMAKE_CXX_FLAGS '${CMAKE_CXX_FLAGS}'")
 endif()
@@ -18,7 +19,7 @@ if(new_variables)
   message(FATAL_ERROR "the library added to the host's cache: ${new_variables}")
 endif()
 
-# Where it is a subfolder, it has its interface targets and nothing to build.
+# Where it is a subfolder, it has its interface targets and nothing to build but the shim, if that was asked for.
 set(folder "")
 if(WAY STREQUAL "add_subdirectory")
   set(folder "${LIBRARY}")
@@ -28,6 +29,9 @@ endif()
 if(folder)
   get_property(subfolders DIRECTORY "${folder}" PROPERTY SUBDIRECTORIES)
   get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
+  if(COMPONENT STREQUAL "shim")
+    list(REMOVE_ITEM subfolders "${folder}/shim")
+  endif()
   list(REMOVE_ITEM targets stillpoint stillpoint_core stillpoint_io stillpoint_dnn stillpoint_onnxruntime)
   if(subfolders OR targets)
     message(FATAL_ERROR "the library brought along ${targets} ${subfolders}")
@@ -35,7 +39,7 @@ if(folder)
 endif()
 
 # What a host links carries no flags.
-foreach(component core stillpoint io dnn onnxruntime)
+foreach(component core stillpoint io dnn onnxruntime shim)
   if(TARGET stillpoint::${component})
     foreach(property COMPILE_OPTIONS COMPILE_DEFINITIONS LINK_OPTIONS)
       get_target_property(value stillpoint::${component} INTERFACE_${property})
@@ -47,4 +51,7 @@ foreach(component core stillpoint io dnn onnxruntime)
 endforeach()
 if(COMPONENT STREQUAL "core" AND TARGET stillpoint::stillpoint)
   message(FATAL_ERROR "core was asked for, and stillpoint::stillpoint came along")
+endif()
+if(COMPONENT STREQUAL "shim" AND WAY STREQUAL "find_package" AND (TARGET Eigen3::Eigen OR TARGET opencv_core))
+  message(FATAL_ERROR "shim was asked for, and Eigen or OpenCV came along")
 endif()

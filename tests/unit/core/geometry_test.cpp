@@ -45,6 +45,26 @@ TEST(Geometry, RotationAngleUndoesRotationFromVector) {
   EXPECT_EQ(rotation_angle(Matrix3d::Identity()), 0.0);
 }
 
+TEST(Geometry, VectorFromRotationUndoesRotationFromVector) {
+  Random random(4);
+  for (int i = 0; i < 300; ++i) {
+    const double angle = std::pow(10.0, random.uniform(-13.0, 0.497));  // up to just below π
+    const Vector3d omega = angle * any_vector(random).normalized();
+    EXPECT_LE((vector_from_rotation(rotation_from_vector(omega)) - omega).norm(), 1e-15 + kRounding * angle) << angle;
+  }
+  EXPECT_EQ(vector_from_rotation(Matrix3d::Identity()), Vector3d::Zero());
+  const Matrix3d half_turn = Vector3d(-1, 1, -1).asDiagonal();
+  EXPECT_LE((vector_from_rotation(half_turn).cwiseAbs() - Vector3d(0, std::acos(-1.0), 0)).norm(), kRounding);
+}
+
+TEST(Geometry, InvertedIsTheMotionBack) {
+  Pose motion = Pose::Identity();
+  motion.linear() = rotation_from_vector({0.4, -0.2, 1.3});
+  motion.translation() = Vector3d(1, -2, 3);
+  EXPECT_EQ(inverted(motion).matrix(), motion.inverse().matrix());
+  EXPECT_TRUE((inverted(motion) * motion).matrix().isIdentity(kRounding));
+}
+
 TEST(Geometry, OrthonormalizedStopsTheDriftOfLongChains) {
   Random random(3);
   Pose step = Pose::Identity();

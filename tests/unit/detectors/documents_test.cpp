@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The code of docs/detectors.md, line by line: tests/structure/documents.sh looks for each of its lines here.
+// The code of docs/detectors.md at work. That each of its blocks compiles is tested by tests/documents.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The code of the documents, line by line: tests/structure/documents.sh looks for each of their lines here.
+// The code of the documents at work. That each block of theirs compiles, as it stands there, is tested by
+// tests/documents.
 
 #include <gtest/gtest.h>
 

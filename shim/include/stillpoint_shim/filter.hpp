@@ -1,0 +1,122 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Filter: the filter with its default policies, for a host in C++11. All of this is compiled by the host; behind it,
+// plain data crosses into the library (types.hpp).
+
+#include <opencv2/core/core.hpp>
+
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include "stillpoint_shim/types.hpp"
+
+namespace stillpoint_shim {
+
+/// Tells which of a frame's features stand still. One filter for one camera; one is not for two threads.
+class Filter {
+ public:
+  /// @throws std::invalid_argument that names the field, the value found and what was expected
+  explicit Filter(const Camera& camera, const Settings& settings = Settings())
+      : width_(camera.width), height_(camera.height) {
+    char message[512] = "";
+    engine_.reset(detail::create(camera, settings, message, sizeof(message)));
+    if (!engine_) throw std::invalid_argument(message);
+  }
+
+  /// Judges the key points of a frame. Call it before the tracker, with frames in the order of time. Throws nothing but
+  /// std::bad_alloc.
+  /// @param image        CV_8UC1, or CV_8UC3 (BGR); as the camera gives it, that is distorted
+  /// @param depth        CV_16UC1 in units of `depth_factor`, or CV_32FC1 in metres; empty where there is none
+  /// @param timestamp_s  seconds
+  /// @param keypoints    pixels of the image as it is
+  /// @return             valid until the next call. A frame that can't be judged keeps everything, its status says why.
+  const Result& filter_frame(const cv::Mat& image, const cv::Mat& depth, double timestamp_s,
+                             const std::vector<cv::KeyPoint>& keypoints) {
+    const float* const first = keypoints.empty() ? nullptr : &keypoints.front().pt.x;
+    return filter(image, depth, timestamp_s, {first, sizeof(cv::KeyPoint), keypoints.size()});
+  }
+  /// The same for plain points.
+  const Result& filter_frame(const cv::Mat& image, const cv::Mat& depth, double timestamp_s,
+                             const std::vector<cv::Point2f>& points) {
+    return filter(image, depth, timestamp_s, {points.data(), sizeof(cv::Point2f), points.size()});
+  }
+
+  /// The answer for the last frame.
+  const Result& result() const { return result_; }
+
+  /// How much each feature of the last frame may say in an estimate, 0 to 1: one minus the probability that it moves.
+  void weights(std::vector<float>& weights) const {
+    weights.resize(result_.keep.size());
+    detail::copy_weights(*engine_, weights.data(), weights.size());
+  }
+
+  /// Paints the last answer as CV_8UC1 of the camera's size: 255 keeps, 0 within `margin_px` of a dropped feature.
+  /// Before the first frame all of it is 255.
+  void mask(cv::Mat& mask, int margin_px = 12) const { detail::paint_mask(*engine_, margin_px, pixels_of(mask)); }
+
+  /// Paints where the coming frame should be looked at, as CV_8UC1 of the camera's size: 255 keeps, 0 drops. For a host
+  /// that extracts features under a mask, so that its budget goes to what stands still; all of it is 255 where the last
+  /// frame was not judged. It knows no keep-floor.
+  /// @param timestamp_s  of the coming frame
+  /// @param margin_px    more is dropped around what moves; an extractor's patch should not reach into it
+  void predicted_mask(double timestamp_s, cv::Mat& mask, int margin_px = 12) const {
+    detail::paint_predicted_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
+  }
+
+  /// Boxes of a detector in the coming frame. None: no new answer.
+  void set_boxes(const std::vector<Box>& boxes) { detail::set_boxes(*engine_, boxes.data(), boxes.size(), nullptr); }
+  /// Boxes in the frame of that time, the coming one or one that is gone: an answer may be late. None: nothing was
+  /// seen.
+  void set_boxes(const std::vector<Box>& boxes, double timestamp_s) {
+    detail::set_boxes(*engine_, boxes.data(), boxes.size(), &timestamp_s);
+  }
+
+  /// The host's own pose of the frame that was filtered last, after its tracking: those of two frames in a row predict
+  /// the next motion. Optional, and of use only where the host's poses are better than the filter's.
+  /// @param world_from_camera  4 x 4, row by row, metres; ORB-SLAM's Tcw is its inverse
+  /// @return                   false if it is no rigid motion; then it is not taken
+  bool feedback(const double (&world_from_camera)[16]) { return detail::feedback(*engine_, world_from_camera); }
+
+  /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
+  void reset() {
+    detail::reset(*engine_);
+    result_ = Result();
+  }
+
+ private:
+  struct Destroy {
+    void operator()(detail::Engine* engine) const { detail::destroy(engine); }
+  };
+
+  static detail::Image view(const cv::Mat& image) {
+    if (image.empty() || image.dims != 2) return {nullptr, 0, 0, 0, 0};
+    return {image.data, image.cols, image.rows, image.step[0], image.type()};
+  }
+
+  /// The mask, made a gray image of the camera's size.
+  detail::Pixels pixels_of(cv::Mat& mask) const {
+    mask.create(height_, width_, CV_8UC1);
+    return {mask.data, mask.step[0]};
+  }
+
+  const Result& filter(const cv::Mat& image, const cv::Mat& depth, double timestamp_s, const detail::Points& points) {
+    result_.keep.assign(points.count, 1);
+    result_.status = detail::filter_frame(*engine_, view(image), view(depth), timestamp_s, points, result_.keep.data(),
+                                          result_.judged);
+    result_.kept_count = 0;
+    for (const unsigned char flag : result_.keep) result_.kept_count += flag;
+    return result_;
+  }
+
+  int width_, height_;
+  std::unique_ptr<detail::Engine, Destroy> engine_;
+  Result result_;
+};
+
+/// What a detector's class is known for: "person" is dynamic, "chair" movable, "sofa" fixed (names of COCO and VOC).
+inline Mobility mobility_of(const char* class_name) { return detail::mobility_of(class_name); }
+
+}  // namespace stillpoint_shim

@@ -1,0 +1,255 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint_shim/filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <string>
+#include <vector>
+
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/stillpoint.hpp"
+
+namespace {
+
+using Flags = std::vector<unsigned char>;
+
+/// Before a wall two metres away a square moves to the right.
+struct Scene {
+  static constexpr int kWidth = 320, kHeight = 240;
+  cv::Mat texture = cv::Mat(2 * kHeight, kWidth, CV_8UC1);
+  cv::Mat gray, depth;
+  std::vector<cv::KeyPoint> keypoints;
+  double timestamp_s = 0;
+
+  Scene() {
+    stillpoint::Random random(1);
+    for (int v = 0; v < texture.rows; v += 4)
+      for (int u = 0; u < texture.cols; u += 4)
+        texture(cv::Rect(u, v, 4, 4)).setTo(static_cast<double>(random.index(256)));
+    for (int v = 20; v < 220; v += 10)
+      for (int u = 20; u < 300; u += 10) keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v), 31.0f);
+  }
+
+  void show(int frame) {
+    const cv::Rect square(40 + 6 * frame, 60, 80, 80);
+    texture(cv::Rect(0, 0, kWidth, kHeight)).copyTo(gray);
+    texture(cv::Rect(0, kHeight, square.width, square.height)).copyTo(gray(square));
+    depth = cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(2000));  // millimetres
+    depth(square).setTo(1500);
+    timestamp_s = 1.0 + frame / 30.0;
+  }
+};
+
+stillpoint_shim::Camera camera() {
+  stillpoint_shim::Camera camera;
+  camera.fx = camera.fy = 200;
+  camera.cx = 159.5;
+  camera.cy = 119.5;
+  camera.width = Scene::kWidth;
+  camera.height = Scene::kHeight;
+  return camera;
+}
+
+stillpoint_shim::Settings millimetres() {
+  stillpoint_shim::Settings settings;
+  settings.depth_factor = 1000;
+  return settings;
+}
+
+/// What the constructor says of wrong settings.
+std::string refusal_of(const stillpoint_shim::Camera& camera, const stillpoint_shim::Settings& settings = {}) {
+  try {
+    stillpoint_shim::Filter filter(camera, settings);
+    return "accepted";
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+// Every setting differs from its default and reaches the stage it is meant for: the same bytes as without the shim.
+TEST(ShimFilter, AnswersAsTheLibraryDoes) {
+  stillpoint_shim::Camera shim_camera = camera();
+  shim_camera.lens = stillpoint_shim::Lens::brown_conrady;
+  const double distortion[5] = {0.02, -0.01, 0.001, -0.002, 0.003};
+  std::copy_n(distortion, 5, shim_camera.distortion);
+  stillpoint_shim::Settings settings = millimetres();
+  settings.depth_noise = stillpoint_shim::DepthNoise::stereo;
+  settings.stereo_baseline_m = 0.12;
+  settings.stereo_disparity_sigma_px = 0.2;
+  settings.false_positive_rate = 0.05;
+  settings.fewest_features = 520;  // more than stand still
+  stillpoint_shim::Filter shim(shim_camera, settings);
+
+  stillpoint::FrameFilter<> filter(stillpoint::Camera(200, 200, 159.5, 119.5, 320, 240,
+                                                      {stillpoint::BrownConrady{0.02, -0.01, 0.001, -0.002, 0.003}}));
+  filter.depth_noise = stillpoint::StereoNoise{200, 0.12, 0.2};
+  filter.gate.options.false_positive_rate = 0.05;
+  filter.keep_floor.options.fewest_features = 520;
+
+  Scene scene;
+  for (int frame = 0; frame < 8; ++frame) {
+    scene.show(frame);
+    if (frame == 3) {  // a late answer, and one of the coming frame
+      shim.set_boxes({{40, 60, 80, 80, stillpoint_shim::Mobility::dynamic, 0.8f}}, 1.0 + 1 / 30.0);
+      filter.prior.detected(1.0 + 1 / 30.0, {{{40, 60, 80, 80}, stillpoint::Mobility::dynamic, 0.8f}});
+    } else if (frame == 5) {
+      shim.set_boxes({{200, 20, 50, 50, stillpoint_shim::Mobility::movable, 0.5f}});
+      filter.prior.detections = {{{200, 20, 50, 50}, stillpoint::Mobility::movable, 0.5f}};
+    }
+    const stillpoint_shim::Result& found =
+        shim.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints);
+    const stillpoint::FrameResult& expected =
+        filter.filter_frame({scene.gray, {scene.depth, 1000.0}, scene.timestamp_s}, scene.keypoints);
+    EXPECT_STREQ(found.status, stillpoint::to_string(expected.status())) << frame;
+    EXPECT_EQ(found.judged, stillpoint::judged(expected.status())) << frame;
+    EXPECT_EQ(found.kept_count, expected.kept_count()) << frame;
+    EXPECT_EQ(found.keep, Flags(expected.keep().begin(), expected.keep().end())) << frame;
+
+    std::vector<float> weights, expected_weights;
+    shim.weights(weights);
+    stillpoint::weights(expected, expected_weights);
+    EXPECT_EQ(weights, expected_weights) << frame;
+
+    cv::Mat mask;
+    stillpoint::ImageBuffer expected_mask;
+    shim.mask(mask, 9);
+    expected.mask(expected_mask, 9);
+    EXPECT_EQ(cv::norm(mask, stillpoint::as_mat(expected_mask.view()), cv::NORM_INF), 0.0) << frame;
+
+    shim.predicted_mask(scene.timestamp_s + 1 / 30.0, mask, 7);
+    filter.predicted_keep_mask(scene.timestamp_s + 1 / 30.0, 7, expected_mask);
+    EXPECT_EQ(cv::norm(mask, stillpoint::as_mat(expected_mask.view()), cv::NORM_INF), 0.0) << frame;
+    EXPECT_TRUE(frame != 7 || cv::countNonZero(mask == 0) > 40 * 40) << "of the square's 80 x 80";
+
+    const stillpoint::Pose pose(Eigen::Translation3d(0.001 * frame, 0, 0));
+    const double rows[16] = {1, 0, 0, 0.001 * frame, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    if (frame >= 5) {
+      EXPECT_TRUE(shim.feedback(rows));
+      filter.feedback(pose);
+    }
+  }
+  EXPECT_STREQ(shim.result().status, "keep_floor") << "the scene tests the keep-floor, too";
+  EXPECT_EQ(shim.result().kept_count, 520u);
+}
+
+TEST(ShimFilter, AColourImageAndPlainPointsGiveTheSameAnswer) {
+  stillpoint_shim::Filter with_keypoints(camera(), millimetres()), with_points(camera(), millimetres());
+  Scene scene;
+  std::vector<cv::Point2f> points;
+  for (const cv::KeyPoint& keypoint : scene.keypoints) points.push_back(keypoint.pt);
+  for (int frame = 0; frame < 5; ++frame) {
+    scene.show(frame);
+    cv::Mat bgr, wider(240, 400, CV_8UC3, cv::Scalar::all(0));
+    cv::merge(std::vector<cv::Mat>(3, scene.gray), bgr);
+    bgr.copyTo(wider(cv::Rect(30, 0, 320, 240)));  // rows with gaps
+    bgr = wider(cv::Rect(30, 0, 320, 240));
+    const Flags keep = with_keypoints.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints).keep;
+    EXPECT_EQ(with_points.filter_frame(bgr, scene.depth, scene.timestamp_s, points).keep, keep) << frame;
+  }
+  EXPECT_LT(with_points.result().kept_count, points.size());
+}
+
+TEST(ShimFilter, ABadFrameKeepsEverythingAndSaysWhy) {
+  stillpoint_shim::Filter filter(camera(), millimetres());
+  Scene scene;
+  scene.show(0);
+  const auto status_of = [&](const cv::Mat& gray, const cv::Mat& depth, double timestamp_s) -> std::string {
+    const stillpoint_shim::Result& result = filter.filter_frame(gray, depth, timestamp_s, scene.keypoints);
+    EXPECT_FALSE(result.judged);
+    EXPECT_EQ(result.keep, Flags(scene.keypoints.size(), 1));
+    EXPECT_EQ(result.kept_count, scene.keypoints.size());
+    return result.status;
+  };
+  EXPECT_EQ(status_of(scene.gray, scene.depth, 1.0), "first_frame");
+  EXPECT_EQ(status_of(scene.gray, scene.depth, 1.0), "duplicate_frame");
+  EXPECT_EQ(status_of(cv::Mat(), scene.depth, 1.1), "no_image");
+  EXPECT_EQ(status_of(scene.gray.rowRange(0, 100), scene.depth, 1.1), "size_changed");
+  EXPECT_EQ(status_of(cv::Mat(240, 320, CV_32SC1, cv::Scalar(0)), scene.depth, 1.1), "unsupported_image");
+  EXPECT_EQ(status_of(scene.gray, scene.depth, std::nan("")), "invalid_time");
+  EXPECT_EQ(status_of(scene.gray, scene.depth, 0.5), "out_of_order");
+  EXPECT_EQ(status_of(scene.gray, cv::Mat(), 0.53), "no_depth");
+  scene.keypoints.clear();
+  EXPECT_EQ(status_of(scene.gray, scene.depth, 0.56), "no_keypoints");
+}
+
+TEST(ShimFilter, ResetForgetsFramesAndAnswers) {
+  stillpoint_shim::Filter filter(camera(), millimetres());
+  cv::Mat mask;
+  std::vector<float> weights(5);
+  filter.mask(mask);
+  filter.weights(weights);
+  EXPECT_EQ(cv::countNonZero(mask != 255), 0);
+  filter.predicted_mask(1.0, mask);
+  EXPECT_EQ(cv::countNonZero(mask != 255), 0);
+  EXPECT_EQ(mask.size(), cv::Size(320, 240));
+  EXPECT_TRUE(weights.empty());
+  Scene scene;
+  for (int frame = 0; frame < 5; ++frame) {
+    scene.show(frame);
+    filter.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints);
+  }
+  filter.mask(mask);
+  EXPECT_GT(cv::countNonZero(mask == 0), 0);
+  EXPECT_EQ(cv::countNonZero(mask == 0) + cv::countNonZero(mask == 255), 320 * 240);
+  filter.reset();
+  filter.mask(mask);
+  EXPECT_EQ(cv::countNonZero(mask != 255), 0);
+  EXPECT_TRUE(filter.result().keep.empty());
+  scene.show(5);
+  EXPECT_STREQ(filter.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints).status, "first_frame");
+}
+
+TEST(ShimFilter, FeedbackTakesRigidMotionsAlone) {
+  stillpoint_shim::Filter filter(camera());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(filter.feedback({0, -1, 0, 1, 1, 0, 0, 2, 0, 0, 1, 3, 0, 0, 0, 1}));
+  EXPECT_FALSE(filter.feedback({nan, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+  EXPECT_FALSE(filter.feedback({2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1})) << "scaled";
+  EXPECT_FALSE(filter.feedback({-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1})) << "mirrored";
+  EXPECT_FALSE(filter.feedback({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1})) << "column by column";
+}
+
+TEST(ShimFilter, WrongSettingsAreNamed) {
+  EXPECT_EQ(refusal_of(camera()), "accepted");
+  stillpoint_shim::Camera wrong = camera();
+  wrong.fy = 0;
+  EXPECT_EQ(refusal_of(wrong), "stillpoint: camera: fy is 0.000000, expected a positive focal length in pixels");
+  wrong = camera();
+  wrong.distortion[1] = 0.1;
+  EXPECT_EQ(refusal_of(wrong),
+            "stillpoint: camera: distortion is 0.100000, expected zeros for a pinhole; or another lens");
+  wrong.lens = stillpoint_shim::Lens::fisheye;
+  EXPECT_EQ(refusal_of(wrong), "accepted");
+  wrong.distortion[4] = 0.1;
+  EXPECT_EQ(refusal_of(wrong),
+            "stillpoint: camera: distortion[4] is 0.100000, expected 0: only brown_conrady has five coefficients");
+
+  stillpoint_shim::Settings settings;
+  settings.depth_factor = 0;
+  EXPECT_EQ(refusal_of(camera(), settings),
+            "stillpoint: settings: depth_factor is 0.000000, expected a positive number of units per metre");
+  settings = {};
+  settings.false_positive_rate = std::nan("");
+  EXPECT_EQ(refusal_of(camera(), settings), "stillpoint: settings: false_positive_rate is nan, expected 1e-6 to 0.5");
+  settings = {};
+  settings.fewest_features = -1;
+  EXPECT_EQ(refusal_of(camera(), settings), "stillpoint: settings: fewest_features is -1.000000, expected 0 or more");
+  settings = {};
+  settings.depth_noise = stillpoint_shim::DepthNoise::stereo;
+  EXPECT_EQ(refusal_of(camera(), settings),
+            "stillpoint: settings: stereo_baseline_m is 0.000000, expected a length in metres");
+}
+
+TEST(ShimFilter, ClassesHaveTheLibrarysMobility) {
+  EXPECT_EQ(stillpoint_shim::mobility_of("person"), stillpoint_shim::Mobility::dynamic);
+  EXPECT_EQ(stillpoint_shim::mobility_of("chair"), stillpoint_shim::Mobility::movable);
+  EXPECT_EQ(stillpoint_shim::mobility_of("sofa"), stillpoint_shim::Mobility::fixed);
+  EXPECT_EQ(stillpoint_shim::mobility_of("unheard of"), stillpoint_shim::Mobility::unknown);
+}
+
+}  // namespace
