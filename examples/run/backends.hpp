@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
+#include "../backends/klt_odometry.hpp"
 #include "../backends/odometry.hpp"
+#include "../backends/orb_odometry.hpp"
 #include "options.hpp"
 #include "stillpoint/adapters/filtered_tracker.hpp"
 #include "stillpoint/core/compact.hpp"
@@ -78,6 +80,13 @@ class Timed {
 template <class Use>
 decltype(auto) with_backend(const Options& options, const stillpoint::Camera& camera, Use&& use) {
   if (options.backend == "none") return use([&] { return Timed(NoTracker(options.features)); });
+  if (options.backend == "klt") return use([&] { return Timed(examples::KltOdometry(camera)); });
+  if (options.backend == "orb")
+    return use([&] {
+      examples::OrbOdometry::Options orb;
+      orb.features = options.features;
+      return Timed(examples::OrbOdometry(camera, orb));
+    });
   return use([&camera, &options] {
     examples::RgbdOdometry::Options odometry;
     odometry.features = options.features;
