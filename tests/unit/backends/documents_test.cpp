@@ -21,7 +21,7 @@ TEST(Documents, TheThreeLinesOfTrackersAreTheLoopOfFilteredTracker) {
   const stillpoint::Camera camera = sequence.camera();
   stillpoint::FrameFilter<> filter(camera);
   examples::KltOdometry odometry(camera);
-  stillpoint::FilteredTracker tracker(stillpoint::FrameFilter<>(camera), examples::KltOdometry(camera));
+  stillpoint::FilteredTracker tracker{stillpoint::FrameFilter<>(camera), examples::KltOdometry(camera)};
   tracker.tells_filter = false;
   for (int i = 0; i < 3; ++i) {
     sequence.render(i, rendered);
