@@ -88,10 +88,9 @@ void run(const Options& options) {
   nlohmann::ordered_json stages;
   const RunRecord record = with_filter(options, *source, [&](auto filter) {
     describe(filter, yaml, stages);
-    return with_backend(options, source->camera(), [&](auto&& make_tracker) {
-      return run_frames(options, *source, *detector, std::move(filter), make_tracker(), make_tracker(),
-                        RunOutput{features, frames, gallery});
-    });
+    const auto tracker = [&] { return make_tracker(options, source->camera()); };
+    return run_frames(options, *source, *detector, std::move(filter), tracker(), tracker(),
+                      RunOutput{features, frames, gallery});
   });
   const Figures figures = evaluate(record);
   const std::string json = report_json(options, record, figures, stages);

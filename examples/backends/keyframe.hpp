@@ -49,8 +49,7 @@ struct DepthLimits {
 };
 
 /// Mean depth of the 3x3 pixels, 0 where one of them has none or lies on another surface.
-inline double depth_at(const Keyframe& frame, const cv::Point2f& pixel, const DepthLimits& limits) {
-  const stillpoint::DepthView depth(frame.depth.view(), frame.depth_factor);
+inline double depth_at(const stillpoint::DepthView& depth, const cv::Point2f& pixel, const DepthLimits& limits) {
   const int u = cvRound(pixel.x), v = cvRound(pixel.y);
   if (!depth.image.contains(u - 1, v - 1) || !depth.image.contains(u + 1, v + 1)) return 0.0;
   const double centre_m = depth.metres(u, v);
@@ -63,6 +62,10 @@ inline double depth_at(const Keyframe& frame, const cv::Point2f& pixel, const De
       sum_m += depth_m;
     }
   return sum_m / 9.0;
+}
+
+inline double depth_at(const Keyframe& frame, const cv::Point2f& pixel, const DepthLimits& limits) {
+  return depth_at(stillpoint::DepthView(frame.depth.view(), frame.depth_factor), pixel, limits);
 }
 
 inline std::size_t count_depths(const Keyframe& frame) {

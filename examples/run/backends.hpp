@@ -8,11 +8,14 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "../backends/klt_odometry.hpp"
 #include "../backends/odometry.hpp"
+#include "../backends/orb_odometry.hpp"
 #include "options.hpp"
 #include "stillpoint/adapters/filtered_tracker.hpp"
 #include "stillpoint/core/compact.hpp"
@@ -41,28 +44,69 @@ class NoTracker {
   cv::Ptr<cv::ORB> orb_;
 };
 
-/// A backend with a clock beside it.
-template <class Backend>
-class Timed {
- public:
-  explicit Timed(Backend backend) : backend_(std::move(backend)) {}
+/// Any of the trackers, with a clock beside it. One type for all of them, so that the run is compiled once for each
+/// filter and not for each pair.
+class AnyTracker {
+  struct AnyArrays {
+    virtual ~AnyArrays() = default;
+    virtual void compact(stillpoint::span<const std::uint8_t> keep) = 0;
+  };
 
-  auto extract(const stillpoint::FrameView& frame) {
-    return run(extract_ms, [&] { return backend_.extract(frame); });
+ public:
+  struct Features {
+    std::vector<cv::KeyPoint> keypoints;  ///< a copy of the tracker's
+    std::unique_ptr<AnyArrays> arrays;    ///< the tracker's own features
+    void compact(stillpoint::span<const std::uint8_t> keep) {
+      stillpoint::compact(keep, keypoints);
+      arrays->compact(keep);
+    }
+  };
+
+  template <class Backend>
+  explicit AnyTracker(Backend backend) : tracker_(std::make_unique<Model<Backend>>(std::move(backend))) {}
+
+  Features extract(const stillpoint::FrameView& frame) {
+    return run(extract_ms, [&] { return tracker_->extract(frame); });
   }
-  template <class Features>
   std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const Features& features) {
-    return run(track_ms, [&] { return backend_.track(frame, features); });
-  }
-  template <class B = Backend>
-  auto feedback(const stillpoint::Pose& world_from_camera) -> decltype(std::declval<B&>().feedback(world_from_camera)) {
-    return static_cast<B&>(backend_).feedback(world_from_camera);
+    return run(track_ms, [&] { return tracker_->track(frame, *features.arrays); });
   }
 
   double extract_ms = 0.0;  ///< of the last frame
   double track_ms = 0.0;
 
  private:
+  struct Concept {
+    virtual ~Concept() = default;
+    virtual Features extract(const stillpoint::FrameView& frame) = 0;
+    virtual std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) = 0;
+  };
+
+  template <class Backend>
+  struct Model : Concept {
+    using BackendFeatures = decltype(std::declval<Backend&>().extract(std::declval<const stillpoint::FrameView&>()));
+    struct Arrays : AnyArrays {
+      explicit Arrays(BackendFeatures some) : features(std::move(some)) {}
+      void compact(stillpoint::span<const std::uint8_t> keep) override { features.compact(keep); }
+      BackendFeatures features;
+    };
+
+    explicit Model(Backend a_backend) : backend(std::move(a_backend)) {}
+
+    Features extract(const stillpoint::FrameView& frame) override {
+      auto arrays = std::make_unique<Arrays>(backend.extract(frame));
+      Features features;
+      features.keypoints = arrays->features.keypoints;
+      features.arrays = std::move(arrays);
+      return features;
+    }
+    std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) override {
+      return backend.track(frame, static_cast<const Arrays&>(arrays).features);
+    }
+
+    Backend backend;
+  };
+
   template <class Function>
   static auto run(double& elapsed_ms, Function&& function) {
     const auto start = std::chrono::steady_clock::now();
@@ -71,18 +115,21 @@ class Timed {
     return result;
   }
 
-  Backend backend_;
+  std::unique_ptr<Concept> tracker_;
 };
 
-/// Calls `use(make)`, where `make()` gives a new tracker of the kind that the options name.
-template <class Use>
-decltype(auto) with_backend(const Options& options, const stillpoint::Camera& camera, Use&& use) {
-  if (options.backend == "none") return use([&] { return Timed(NoTracker(options.features)); });
-  return use([&camera, &options] {
-    examples::RgbdOdometry::Options odometry;
-    odometry.features = options.features;
-    return Timed(examples::RgbdOdometry(camera, odometry));
-  });
+/// A new tracker of the kind that the options name.
+inline AnyTracker make_tracker(const Options& options, const stillpoint::Camera& camera) {
+  if (options.backend == "none") return AnyTracker(NoTracker(options.features));
+  if (options.backend == "klt") return AnyTracker(examples::KltOdometry(camera));
+  if (options.backend == "orb") {
+    examples::OrbOdometry::Options orb;
+    orb.features = options.features;
+    return AnyTracker(examples::OrbOdometry(camera, orb));
+  }
+  examples::RgbdOdometry::Options odometry;
+  odometry.features = options.features;
+  return AnyTracker(examples::RgbdOdometry(camera, odometry));
 }
 
 }  // namespace stillpoint_run

@@ -248,8 +248,9 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   app.add_option("--drop-boxes", options.drop_boxes, "share of the boxes that is left out at random, by --seed")
       ->type_name("SHARE")
       ->check(detail::number(0.0, 1.0, "0 to 1"));
-  const CLI::Option* backend = detail::add_choice(app, "--backend", options.backend, {"odometry", "none"},
-                                                  "the tracker behind the filter; without depth: none unless told");
+  const CLI::Option* backend = detail::add_choice(
+      app, "--backend", options.backend, {"odometry", "klt", "orb", "none"},
+      "the tracker behind the filter; klt finds its points by a grid, not --features; without depth: none unless told");
   add_number("--features", options.features, 1, 100000, "ORB features a frame");
   add_number("--start", options.start, 0, most, "first frame, counted from 0");
   add_number("--frames", options.frames, 1, most, "frames at most")->default_str("all");

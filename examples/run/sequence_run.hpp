@@ -94,9 +94,9 @@ inline std::optional<std::size_t> frame_count(const Options& options, const Fram
 /// Runs the frames that the options ask for, or fewer where the source ends or Ctrl-C is pressed; beside a network in a
 /// thread of its own no faster than they were taken.
 /// @throws stillpoint::Error where a frame can't be read or a row not written, or there is none.
-template <class Filter, class Backend>
+template <class Filter>
 RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed& detector, Filter a_filter,
-                     Backend behind_filter, Backend unfiltered_backend, const RunOutput& output) {
+                     AnyTracker behind_filter, AnyTracker unfiltered_backend, const RunOutput& output) {
   stillpoint::FilteredTracker filtered(std::move(a_filter), std::move(behind_filter));
   filtered.tells_filter = false;  // these backends have no map to know better by
   stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));

@@ -66,7 +66,7 @@ TEST(StillpointRunArguments, WordsThatAreNotOffered) {
   expect_error("--demo --ego-motion imu", {"--ego-motion", "found 'imu'", "expected one of default, rigid, epipolar"});
   expect_error("--demo --depth-noise none", {"--depth-noise", "found 'none'", "expected one of kinect, stereo, tof"});
   expect_error("--demo --prior lables", {"--prior", "found 'lables'", "expected one of none, boxes, labels"});
-  expect_error("--demo --backend orb", {"--backend", "found 'orb'", "expected one of odometry, none"});
+  expect_error("--demo --backend slam", {"--backend", "found 'slam'", "expected one of odometry, klt, orb, none"});
   expect_error("--demo --paper-as-printed eq3,eq4",
                {"--paper-as-printed", "found 'eq4'", "expected one of eq3, eq8, unit-t"});
 }

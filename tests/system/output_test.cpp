@@ -277,6 +277,19 @@ std::vector<bool> frames_with_boxes(const std::string& choice) {
   return found;
 }
 
+// Their figures are in docs/trackers.md; here they run: a header and a pose for each of the three frames.
+TEST(DemoChoices, EveryTrackerRuns) {
+  const TemporaryFolder folder;
+  for (const std::string backend : {"klt", "orb"}) {
+    const fs::path out = folder / backend;
+    const Outcome outcome =
+        run_program("--demo --quiet --prior labels --frames 3 --out " + quoted(out) + " --backend " + backend);
+    ASSERT_EQ(outcome.status, 0) << outcome.error;
+    EXPECT_EQ(split(read_text(out / "trajectory.txt"), '\n').size(), 4u) << backend;
+    EXPECT_EQ(split(read_text(out / "trajectory_unfiltered.txt"), '\n').size(), 4u) << backend;
+  }
+}
+
 TEST(DemoChoices, ADetectorMayBeSlowOrMiss) {
   EXPECT_EQ(frames_with_boxes(""), std::vector<bool>(5, true));
   EXPECT_EQ(frames_with_boxes("--detect-every 3"), std::vector<bool>(5, true)) << "carried";

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# bench/trackers.sh [DATA [TRACKER...]]: how far the trackers of examples/ drift behind the filter, behind the true labels
+# and behind nothing. DATA is a folder with kitchen_walk, kitchen_box and kitchen_static, unless told ../shared/data. Each
+# row is the median over --start 0 to 4, in brackets the least and the greatest; prints a table for docs/trackers.md.
+set -euo pipefail
+here=$PWD
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+data=$PWD/../shared/data
+if (($# > 0)); then
+  case $1 in /*) data=$1 ;; *) data=$here/$1 ;; esac
+  shift
+fi
+trackers=("$@")
+((${#trackers[@]} > 0)) || trackers=(odometry klt orb)
+
+cmake -S . -B build/trackers -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \
+  -DSTILLPOINT_BUILD_BENCHMARKS=OFF > /dev/null
+cmake --build build/trackers --target stillpoint_run >&2
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+# ate TRACKER SEQUENCE PRIOR: the five starts' ATE, filtered and unfiltered, metres, one pair a line.
+ate() {
+  local start
+  for start in 0 1 2 3 4; do
+    build/trackers/examples/stillpoint_run --tum "$data/$2" --prior "$3" --backend "$1" --start "$start" \
+      --out "$work/out" --quiet > /dev/null
+    awk -F '[:,]' '/"ate_rmse_m"/ { filtered = $2 } /"ate_rmse_unfiltered_m"/ { unfiltered = $2 }
+      END { print filtered + 0, unfiltered + 0 }' "$work/out/report.json"
+  done
+}
+# column N FILE: its median, least and greatest value.
+column() {
+  sort -g -k "$1,$1" "$2" | awk -v n="$1" '{ x[NR] = $n } END { printf "%.4f (%.4f to %.4f)", x[int((NR + 1) / 2)], x[1], x[NR] }'
+}
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", (a + 0) / (b + 0) }'; }
+
+printf '| tracker | sequence | ATE filtered, m | ATE with the labels, m | ATE unfiltered, m | filtered by labels | filtered by unfiltered |\n'
+printf '|---|---|---|---|---|---|---|\n'
+for tracker in "${trackers[@]}"; do
+  for sequence in kitchen_walk kitchen_box kitchen_static; do
+    ate "$tracker" "$sequence" none > "$work/none"
+    filtered=$(column 1 "$work/none")
+    unfiltered=$(column 2 "$work/none")
+    labels='' by_labels=''
+    if [[ $sequence != kitchen_static ]]; then
+      ate "$tracker" "$sequence" labels > "$work/labels"
+      labels=$(column 1 "$work/labels")
+      by_labels=$(ratio "${filtered%% *}" "${labels%% *}")
+    fi
+    echo "| $tracker | $sequence | $filtered | $labels | $unfiltered | $by_labels |" \
+      "$(ratio "${filtered%% *}" "${unfiltered%% *}") |"
+  done
+done

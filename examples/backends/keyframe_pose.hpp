@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// The half of a small RGB-D odometry that does not depend on its features: the pose of a frame from the points of the
+// nearest keyframes, and which frames become keyframes. How a feature is found again is up to the caller.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "keyframe.hpp"
+#include "robust_pose.hpp"
+#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+
+namespace examples {
+
+/// A frame without its images: its features and the points that their depth makes of them.
+template <class Features>
+struct PointFrame {
+  Features features;
+  std::vector<Vector2d> pixel;  ///< of the features, undistorted
+  std::vector<double> depth_m;  ///< of the features, 0 where there is none
+  Pose world_from_camera = Pose::Identity();
+};
+
+/// A feature of the current frame, found again in a keyframe.
+struct FeaturePair {
+  std::size_t current, keyframe;
+};
+
+/// @tparam Features  has `keypoints`, cv::KeyPoint, and whatever finds them again
+template <class Features>
+class KeyframePose {
+ public:
+  using Frame = PointFrame<Features>;
+
+  struct Options {
+    std::size_t matched_keyframes = 4;
+    std::size_t stored_keyframes = 20;  ///< where a lost camera is looked for
+    double pixel_sigma = 0.7;           ///< of a feature that was found again
+    double depth_sigma_factor = 3.0;    ///< times KinectNoise: depth and colour are not taken at the same moment
+    DepthLimits depth_limits;
+    double keyframe_share = 0.6;    ///< a new keyframe where the last explains less of the features with depth
+    double keyframe_motion = 0.15;  ///< or the camera has moved this far: metres plus radians
+    int patience = 15;              ///< frames without a pose; then it begins anew where it was lost
+  };
+  Options options;
+  stillpoint::KinectNoise depth_noise;
+  RobustPose solve;
+
+  explicit KeyframePose(Camera camera) : camera_(std::move(camera)) {}
+
+  const Camera& camera() const { return camera_; }
+
+  /// @param match  called as match(keyframe, current, camera_from_world, is_lost, pairs) and appends to `pairs`;
+  ///               camera_from_world is the expected pose, which says nothing where the camera is lost
+  /// @return world_from_camera. Nothing where too few features fit, or before a first frame with depth.
+  template <class Match>
+  std::optional<Pose> track(const stillpoint::FrameView& frame, const Features& features, Match&& match) {
+    Frame current = prepare(frame, features);
+    if (keyframes_.empty()) return begin(std::move(current));
+    Pose camera_from_world = stillpoint::orthonormalized(motion_ * camera_from_world_);
+    if (!solve_near(current, match, camera_from_world) && !relocalize(current, match, camera_from_world)) {
+      motion_ = Pose::Identity();
+      if (++misses_ <= options.patience) return std::nullopt;
+      keyframes_.clear();
+      return begin(std::move(current));
+    }
+    motion_ = misses_ > 0 ? Pose::Identity() : camera_from_world * camera_from_world_.inverse();
+    misses_ = 0;
+    camera_from_world_ = camera_from_world;
+    current.world_from_camera = camera_from_world.inverse();
+    const Pose world_from_camera = current.world_from_camera;
+    if (wants_keyframe(current)) remember(std::move(current));
+    return world_from_camera;
+  }
+
+ private:
+  struct Source {
+    std::size_t feature;
+    const Frame* keyframe;
+  };
+
+  Frame prepare(const stillpoint::FrameView& frame, const Features& features) const {
+    Frame current;
+    current.features = features;
+    for (const cv::KeyPoint& keypoint : features.keypoints) {
+      current.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));
+      current.depth_m.push_back(depth_at(frame.depth, keypoint.pt, options.depth_limits));
+    }
+    return current;
+  }
+
+  std::optional<Pose> begin(Frame&& current) {
+    if (count_depths(current) < solve.options.fewest) return std::nullopt;
+    current.world_from_camera = camera_from_world_.inverse();
+    misses_ = 0;
+    remember(std::move(current));
+    return keyframes_.back().world_from_camera;
+  }
+
+  static std::size_t count_depths(const Frame& frame) {
+    return static_cast<std::size_t>(
+        std::count_if(frame.depth_m.begin(), frame.depth_m.end(), [](double depth_m) { return depth_m > 0; }));
+  }
+
+  double depth_sigma(double depth_m) const { return options.depth_sigma_factor * depth_noise.sigma(depth_m); }
+
+  template <class Match>
+  void see(const Frame& current, const Frame& keyframe, const Match& match, const Pose& camera_from_world,
+           bool is_lost) {
+    pairs_.clear();
+    match(keyframe, current, camera_from_world, is_lost, pairs_);
+    for (const FeaturePair& pair : pairs_) {
+      const double depth_there_m = keyframe.depth_m[pair.keyframe], depth_m = current.depth_m[pair.current];
+      if (!(depth_there_m > 0)) continue;
+      const Vector3d p_keyframe = camera_.back_project(keyframe.pixel[pair.keyframe], depth_there_m);
+      const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(depth_there_m) / depth_there_m);
+      sightings_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[pair.current], options.pixel_sigma,
+                            depth_m, depth_sigma(depth_m), keyframe.world_from_camera.linear() * p_keyframe_sigma_m});
+      sources_.push_back({pair.current, &keyframe});
+    }
+  }
+
+  void forget_sightings() {
+    sightings_.clear();
+    sources_.clear();
+  }
+
+  /// The pose from the keyframes that are nearest to the expected one.
+  template <class Match>
+  bool solve_near(const Frame& current, const Match& match, Pose& camera_from_world) {
+    const Pose world_from_camera = camera_from_world.inverse();
+    std::vector<std::pair<double, const Frame*>> nearest;
+    for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe)
+      nearest.emplace_back(distance(world_from_camera, keyframe->world_from_camera), &*keyframe);
+    std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    forget_sightings();
+    for (std::size_t i = 0; i < std::min(nearest.size(), options.matched_keyframes); ++i)
+      see(current, *nearest[i].second, match, camera_from_world, false);
+    return solve(sightings_, camera_, camera_from_world, inlier_);
+  }
+
+  /// The pose from nothing but likeness: the latest keyframe that gives one, if the nearest ones then agree.
+  template <class Match>
+  bool relocalize(const Frame& current, const Match& match, Pose& camera_from_world) {
+    for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
+      forget_sightings();
+      see(current, *keyframe, match, camera_from_world, true);
+      Pose candidate = camera_from_world;
+      if (!solve(sightings_, camera_, candidate, inlier_) || !solve_near(current, match, candidate)) continue;
+      camera_from_world = candidate;
+      return true;
+    }
+    return false;
+  }
+
+  bool wants_keyframe(const Frame& current) const {
+    const Frame& last = keyframes_.back();
+    std::size_t explained = 0;  // a feature is paired with one point of a keyframe
+    for (std::size_t i = 0; i < sources_.size(); ++i) explained += inlier_[i] != 0 && sources_[i].keyframe == &last;
+    return distance(last.world_from_camera, current.world_from_camera) > options.keyframe_motion ||
+           static_cast<double>(explained) < options.keyframe_share * static_cast<double>(count_depths(current));
+  }
+
+  void remember(Frame&& keyframe) {
+    keyframes_.push_back(std::move(keyframe));
+    if (keyframes_.size() > options.stored_keyframes) keyframes_.pop_front();
+  }
+
+  Camera camera_;
+  std::deque<Frame> keyframes_;
+  std::vector<FeaturePair> pairs_;
+  std::vector<PointSighting> sightings_;
+  std::vector<Source> sources_;
+  std::vector<std::uint8_t> inlier_;
+  Pose camera_from_world_ = Pose::Identity();
+  Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose
+  int misses_ = 0;                  ///< frames in a row without a pose
+};
+
+}  // namespace examples
