@@ -38,10 +38,9 @@ struct NoDepth {
 struct RoundedDepth {
   /// @return metres, 0 where there is none or the pixel is outside.
   double at(const DepthView& depth, const Vector2f& pixel) const noexcept {
-    // Also false for NaN, and for what is too far away for lround.
+    // Also false for NaN, and for what is too far away for an int.
     if (!(depth.image.border_distance_px(pixel.x(), pixel.y()) >= -0.5f)) return 0.0;
-    const auto u = static_cast<int>(std::lround(pixel.x()));
-    const auto v = static_cast<int>(std::lround(pixel.y()));
+    const int u = rounded(pixel.x()), v = rounded(pixel.y());
     return depth.image.contains(u, v) ? static_cast<double>(depth.metres(u, v)) : 0.0;
   }
 };

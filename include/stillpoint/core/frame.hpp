@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -26,13 +27,13 @@ struct DepthView {
 
   /// Depth in metres at a pixel of the depth image, 0 where there is none.
   float metres(int u, int v) const noexcept {
-    if (image.format == PixelFormat::depth16) {
-      const std::uint16_t raw = image.row<std::uint16_t>(v)[u];
-      return static_cast<float>(raw / factor);
-    }
-    const float value = image.row<float>(v)[u];
-    return std::isfinite(value) && value > 0.0f ? value : 0.0f;
+    return image.format == PixelFormat::depth16 ? metres(image.row<std::uint16_t>(v)[u])
+                                                : metres(image.row<float>(v)[u]);
   }
+
+  /// What the image holds, in metres.
+  float metres(std::uint16_t raw) const noexcept { return static_cast<float>(raw / factor); }
+  static float metres(float value_m) noexcept { return std::isfinite(value_m) && value_m > 0.0f ? value_m : 0.0f; }
 };
 
 /// One frame. All views must stay alive during `filter_frame` and may die after it.

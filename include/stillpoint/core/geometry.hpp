@@ -21,6 +21,17 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Rigid motion, named `target_from_source`: maps points of source into target, metres.
 using Pose = Eigen::Isometry3d;
 
+/// What std::lround gives, for what fits an int, without a call: half a pixel is rounded away from 0.
+inline int rounded(float pixel) noexcept {
+  const auto exact = static_cast<double>(pixel);  // to which ½ is added without rounding
+  return static_cast<int>(exact + std::copysign(0.5, exact));
+}
+
+/// The pixel in whose square a place lies.
+inline Vector2f rounded(const Vector2f& pixel) noexcept {
+  return {static_cast<float>(rounded(pixel.x())), static_cast<float>(rounded(pixel.y()))};
+}
+
 /// The matrix of the cross product: skew(a) * b = a × b.
 inline Matrix3d skew(const Vector3d& a) {
   Matrix3d m;

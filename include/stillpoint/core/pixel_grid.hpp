@@ -27,14 +27,14 @@ class PixelGrid {
     columns_ = std::min(static_cast<std::size_t>(largest.x() / cell_px) + 1, kMostCells);
     rows_ = std::min(static_cast<std::size_t>(largest.y() / cell_px) + 1, kMostCells);
     begin_ = workspace.take<std::uint32_t>(columns_ * rows_ + 1);
-    index_ = workspace.take<std::uint32_t>(pixels.size());
+    entry_ = workspace.take<Entry>(pixels.size());
     // Counting sort: count, sum up, put in place from behind.
     for (std::size_t i = 0; i < pixels.size(); ++i)
       if (takes_part(i, accept)) ++begin_[cell(pixels[i])];
     std::uint32_t sum = 0;
     for (std::uint32_t& entry : begin_) entry = sum += entry;
     for (std::size_t i = pixels.size(); i-- > 0;)
-      if (takes_part(i, accept)) index_[--begin_[cell(pixels[i])]] = static_cast<std::uint32_t>(i);
+      if (takes_part(i, accept)) entry_[--begin_[cell(pixels[i])]] = {pixels[i], static_cast<std::uint32_t>(i)};
   }
 
   /// Calls `visit(index, squared_distance_px)` for every point within `radius_px`, cell by cell, in a fixed order.
@@ -46,13 +46,18 @@ class PixelGrid {
     for (std::size_t v = v0; v <= v1; ++v) {
       const std::uint32_t first = begin_[v * columns_ + u0], last = begin_[v * columns_ + u1 + 1];
       for (std::uint32_t k = first; k < last; ++k) {
-        const float squared = (pixels_[index_[k]] - pixel).squaredNorm();
-        if (squared <= radius_px * radius_px) visit(std::size_t{index_[k]}, squared);
+        const float squared = (entry_[k].pixel - pixel).squaredNorm();
+        if (squared <= radius_px * radius_px) visit(std::size_t{entry_[k].index}, squared);
       }
     }
   }
 
  private:
+  struct Entry {
+    Vector2f pixel = Vector2f::Zero();
+    std::uint32_t index = 0;
+  };
+
   static constexpr float kLargest_px = 1e5f;
   static constexpr std::size_t kMostCells = 512;  // to a side: the last ones take in what is farther away
 
@@ -70,7 +75,8 @@ class PixelGrid {
   span<const Vector2f> pixels_;
   float cell_px_;
   std::size_t columns_ = 1, rows_ = 1;
-  span<std::uint32_t> begin_, index_;
+  span<std::uint32_t> begin_;
+  span<Entry> entry_;  // cell by cell: a search reads on without jumps
 };
 
 }  // namespace stillpoint

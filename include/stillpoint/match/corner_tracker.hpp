@@ -62,7 +62,7 @@ class CornerTracker {
     const std::size_t first = matches.size();
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c)
-      matches.current.pixel[first + c] = Pyramid::from_level(corners_[c], kLevel).array().round();
+      matches.current.pixel[first + c] = rounded(Pyramid::from_level(corners_[c], kLevel));
   }
 
   void follow(std::size_t i, const DepthView& depth, Matches& matches) const {
@@ -71,7 +71,7 @@ class CornerTracker {
     Patch patch;
     PatchFit fit;
     for (std::size_t level = current_.size(); level-- > 0;) {
-      const Vector2f cut = Pyramid::to_level(pixel, level).array().round();
+      const Vector2f cut = rounded(Pyramid::to_level(pixel, level));
       const PatchMask mask = level == 0 ? PatchMask(depth, pixel, options.same_surface) : PatchMask();
       fit = PatchFit();
       if (!cut_patch(current_[level], cut, mask, patch)) continue;

@@ -67,9 +67,11 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
       const float c = pyy[u - 2] + pyy[u - 1] + pyy[u] + pyy[u + 1] + pyy[u + 2];
       out[u] = 0.5f * (a + c) - std::sqrt(0.25f * (a - c) * (a - c) + b * b);
     }
-    for (int u = kBorder; u < columns - kBorder; ++u) {
-      Best& cell = best[static_cast<std::size_t>(u / cell_px)];
-      if (out[u] > cell.strength) cell = {out[u], u, v};
+    for (int begin = 0, end = cell_px; begin < columns; begin = end, end += cell_px) {
+      Best& cell = best[static_cast<std::size_t>(begin / cell_px)];
+      const int last = std::min(end, columns - kBorder);
+      for (int u = std::max(begin, kBorder); u < last; ++u)
+        if (out[u] > cell.strength) cell = {out[u], u, v};
     }
     add_row(v - kRadius, -1.0f);
     if ((v + 1) % cell_px == 0) flush();

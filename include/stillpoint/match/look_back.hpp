@@ -131,7 +131,7 @@ class LookBack {
     sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
     sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
     Patch patch;
-    const Vector2f centre = matches.current.pixel[i].array().round();
+    const Vector2f centre = rounded(matches.current.pixel[i]);
     const bool textured =
         cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, options.same_surface), patch) &&
         patch.count >= options.fewest_pixels;
@@ -200,12 +200,16 @@ class LookBack {
   bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m) const noexcept {
     if (frame.depth.empty() || options.occluder_reach_px <= 0) return false;
     const DepthScale to_depth(frame.gray, frame.depth.image);
-    const RoundedDepth depth;
     for (const int ring_px : {(options.occluder_reach_px + 1) / 2, options.occluder_reach_px}) {
-      for (int j = -1; j <= 1; ++j) {
-        for (int i = -1; i <= 1; ++i) {
-          const Vector2f offset(static_cast<float>(i * ring_px), static_cast<float>(j * ring_px));
-          const double depth_m = depth.at(frame.depth, to_depth(pixel + offset));
+      std::array<int, 3> u, v;
+      for (int k = 0; k < 3; ++k) {
+        const Vector2f at = to_depth(pixel.array() + static_cast<float>((k - 1) * ring_px));
+        u[k] = rounded(at.x());
+        v[k] = rounded(at.y());
+      }
+      for (const int row : v) {
+        for (const int column : u) {
+          const double depth_m = frame.depth.image.contains(column, row) ? frame.depth.metres(column, row) : 0.0;
           if (depth_m > 0 && depth_m < nearer_than_m) return true;
         }
       }
