@@ -89,10 +89,28 @@ inline double tukey(double squared, double cutoff) noexcept {
 
 }  // namespace detail
 
-/// The squared whitened residual: 2 degrees of freedom, 3 with a depth.
+/// The squared whitened residual: 2 degrees of freedom, 3 with a depth. `WhitenedPoint::squared` without its
+/// derivatives.
 template <class Camera>
 double squared_residual(const PointConstraint& constraint, const Pose& reference_from_current, const Camera& camera) {
-  return detail::WhitenedPoint(constraint, reference_from_current, camera).squared;
+  const Vector3d there = reference_from_current * constraint.point;
+  if (!(there.z() > detail::kNearestDepth_m)) return std::numeric_limits<double>::infinity();
+  const double inverse_z = 1.0 / there.z(), x = there.x() * inverse_z, y = there.y() * inverse_z;
+  const double error_x = camera.fx() * x + camera.cx() - constraint.pixel.x();
+  const double error_y = camera.fy() * y + camera.cy() - constraint.pixel.y();
+  // ∂pixel for one standard deviation of the inverse depth, as above.
+  const double spread = constraint.point.z() * constraint.inverse_depth_sigma * inverse_z;
+  const Vector3d from_there = reference_from_current.translation() - there;
+  const double along_x = camera.fx() * spread * (from_there.x() - x * from_there.z());
+  const double along_y = camera.fy() * spread * (from_there.y() - y * from_there.z());
+  // Sherman and Morrison: (v I + a aᵀ)⁻¹ = (I − a aᵀ / (v + aᵀa)) / v.
+  const double variance = constraint.pixel_sigma * constraint.pixel_sigma;
+  const double projected = along_x * error_x + along_y * error_y;
+  const double share = projected * projected / (variance + along_x * along_x + along_y * along_y);
+  const double squared = (error_x * error_x + error_y * error_y - share) / variance;
+  if (!(constraint.depth_m > 0)) return squared;
+  const double depth_error = (there.z() - constraint.depth_m) / constraint.depth_sigma_m;
+  return squared + std::min(depth_error * depth_error, detail::kDepthErrorLimit);
 }
 
 /// Looks for the small motion x = (ω, v) of the current camera that all older frames share, p' = Exp(ω) p + v, and

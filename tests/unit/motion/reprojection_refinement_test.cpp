@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "motion_scene.hpp"
@@ -216,6 +217,23 @@ TEST(ReprojectionRefinement, InformationIsTheInverseCovarianceOfTheErrors) {
   }
   EXPECT_GT(sum / kSeeds, 5.0);
   EXPECT_LT(sum / kSeeds, 7.0);
+}
+
+// Written without derivatives it is the same; `WhitenedPoint` leaves out a spread below 0.001 of the pixel's variance.
+TEST(ReprojectionRefinement, TheSquaredResidualIsThatOfTheWhitenedPoint) {
+  Random random(5);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const Pose pose = random_pose(random, 0.1, 0.2);
+    PointConstraint point = exact_point(random_point(random), pose);
+    point.pixel += Vector2d(random.uniform(-5, 5), random.uniform(-5, 5));
+    point.inverse_depth_sigma = trial % 3 == 0 ? 0.0 : random.uniform(0.0, 0.3);
+    point.depth_m = trial % 2 == 0 ? 0.0 : point.depth_m + random.uniform(-0.05, 0.05);
+    const double expected = detail::WhitenedPoint(point, pose, test_camera()).squared;
+    ASSERT_NEAR(squared_residual(point, pose, test_camera()), expected, 0.001 * expected + 1e-9);
+  }
+  PointConstraint behind = exact_point({0, 0, 2}, Pose::Identity());
+  behind.point.z() = -2;
+  EXPECT_EQ(squared_residual(behind, Pose::Identity(), test_camera()), std::numeric_limits<double>::infinity());
 }
 
 // The camera moved by 0.1 m to the side; the point is straight ahead at 2 m. Its inverse depth, 0.5 ± 0.25 per metre,
