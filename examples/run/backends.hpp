@@ -52,6 +52,14 @@ class AnyTracker {
     virtual void compact(stillpoint::span<const std::uint8_t> keep) = 0;
   };
 
+  template <class Function>
+  static auto run(double& elapsed_ms, Function&& function) {
+    const auto start = std::chrono::steady_clock::now();
+    auto result = function();
+    elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
  public:
   struct Features {
     std::vector<cv::KeyPoint> keypoints;  ///< a copy of the tracker's
@@ -106,14 +114,6 @@ class AnyTracker {
 
     Backend backend;
   };
-
-  template <class Function>
-  static auto run(double& elapsed_ms, Function&& function) {
-    const auto start = std::chrono::steady_clock::now();
-    auto result = function();
-    elapsed_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    return result;
-  }
 
   std::unique_ptr<Concept> tracker_;
 };
