@@ -108,10 +108,16 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
     result.push_back(
         "The paper's method tests features inside boxes of moving classes only: without --prior boxes or "
         "a network it drops nothing.");
+  if (options.policies == "monocular")
+    result.push_back(
+        "Without depth nothing is in metres, and what moves along its epipolar line is found inside boxes at most: "
+        "--prior boxes or a network helps.");
   if (const std::size_t unjudged = detail::unjudged_frames(run); unjudged > 0)
     result.push_back(count_words(unjudged, "frame") + " after the first could not be judged, and all features of " +
                      (unjudged == 1 ? "it" : "them") + " were kept" +
-                     (run.has_depth ? "." : ": they have no depth, which --policies " + options.policies + " needs."));
+                     (run.has_depth || options.policies == "monocular"
+                          ? "."
+                          : ": they have no depth, which --policies " + options.policies + " needs."));
   if (figures.filtered.frames_without_pose.value_or(0) > 0)
     result.push_back(count_words(*figures.filtered.frames_without_pose, "frame") + " got no pose with the filter, " +
                      std::to_string(figures.unfiltered.frames_without_pose.value_or(0)) + " without it.");

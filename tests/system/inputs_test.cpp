@@ -170,17 +170,32 @@ TEST_F(Inputs, ImagesAloneRunOnAGuessedCameraAndSaySo) {
   expect_run("--images " + quoted(left));
   EXPECT_TRUE(says("a horizontal field of view of 60 degrees is assumed (--camera)")) << said;
   EXPECT_TRUE(says("30 frames a second are assumed (--fps)")) << said;
-  EXPECT_TRUE(says("they have no depth")) << said;
+  EXPECT_TRUE(says("Without depth nothing is in metres")) << said;
+  EXPECT_EQ(report()["policies"], "monocular");
   EXPECT_NE(page().find("field of view of 60 degrees"), std::string::npos);
   const Json found = report();
   EXPECT_EQ(found["assumptions"].size(), 2u);
   EXPECT_EQ(found["frames"], 11);
-  EXPECT_EQ(found["kept_share"], 1.0) << "what can't be judged is kept";
-  EXPECT_FALSE(found["statuses"].contains("ok"));
+  EXPECT_FALSE(found["statuses"].contains("no_depth"));
   EXPECT_TRUE(found["frames_without_pose"].is_null()) << "a tracker that takes depth did not run";
   const auto rows = read_csv(out / "frames.csv");
   EXPECT_EQ(rows.at(2).at(0), "0.03333333333333333") << "1.png";
   EXPECT_EQ(rows.at(11).at(0), "0.3333333333333333") << "10.png comes last, not second";
+}
+
+TEST_F(Inputs, PoliciesThatNeedDepthKeepEverythingAndSaySo) {
+  write_pair(4);
+  expect_run("--images " + quoted(left) + " --policies default");
+  EXPECT_TRUE(says("they have no depth, which --policies default needs")) << said;
+  EXPECT_EQ(report()["kept_share"], 1.0) << "what can't be judged is kept";
+  EXPECT_FALSE(report()["statuses"].contains("ok"));
+}
+
+TEST_F(Inputs, MonocularPoliciesHaveNoDepthToChoose) {
+  write_pair(4);
+  expect_named_error("--images " + quoted(left) + " --depth-noise tof",
+                     {"--depth-noise: found with --policies monocular"});
+  expect_named_error("--images " + quoted(left) + " --without memory", {"--without: found with --policies monocular"});
 }
 
 TEST_F(Inputs, ImagesWithACameraAreNotGuessed) {
