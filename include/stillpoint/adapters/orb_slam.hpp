@@ -5,10 +5,10 @@
 // ORB-SLAM2, ORB-SLAM3 and forks: what their Frame, extractor and optimiser take of the filter.   docs/adopting.md says
 // where each call goes, with function and line. No header of the host is included: members are meant by name.
 //
-//   extractor   erase_masked_candidates, features_to_extract    before the features are chosen
-//   hook B      compact_after_extraction                        right after ExtractORB, before N is set
-//   hook A      compact_after_depth                             after ComputeStereoFromRGBD, before mvpMapPoints is
-//   sized optimiser   weighted_inv_sigma2                             where drops are not wanted
+//   extractor   erase_masked_candidates, features_to_extract   before the features are chosen
+//   hook B      compact_after_extraction                       right after ExtractORB, before N is set
+//   hook A      compact_after_depth                            after ComputeStereoFromRGBD, before mvpMapPoints
+//   optimiser   weighted_inv_sigma2                            where drops are not wanted
 //
 // A Frame without features is half-initialised: flags that would drop all drop none.
 

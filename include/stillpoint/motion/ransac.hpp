@@ -24,19 +24,21 @@ namespace stillpoint {
 
 // What an Estimator offers. All calls are const; one run, one thread.
 //
-// | member                                                          | meaning |
+// clang-format off
+// | member                                                          | meaning                                           |
 // |-----------------------------------------------------------------|---------------------------------------------------|
-// | `using Model`                                                   | default-constructible, copyable | | `static
-// constexpr std::size_t kSampleSize`                      | data in a minimal sample                          | |
-// `static constexpr std::size_t kMaxModels`                       | most models that one sample can have              |
-// | `std::size_t size() const`                                      | number of data, in random order (see `shuffle`):
-// | |                                                                 | early rejection looks at the first of them | |
-// `std::size_t solve(span<const std::size_t> sample,              | models through the sample, written to the front   |
-// |                    span<Model> models) const`                   | of `models`; 0: the sample is degenerate | |
-// `float squared_residual(const Model&, std::size_t datum) const` | in the square of the threshold's unit; NaN is an  |
-// |                                                                 | outlier. Called most; keep it free of branches |
-// | optional: `bool refine(span<const std::uint32_t> inliers,       | improves the model on its inliers; false: can't.
-// | |                        Model& model) const`                     | Without it there is no local optimisation |
+// | `using Model`                                                   | default-constructible, copyable                   |
+// | `static constexpr std::size_t kSampleSize`                      | data in a minimal sample                          |
+// | `static constexpr std::size_t kMaxModels`                       | most models that one sample can have              |
+// | `std::size_t size() const`                                      | number of data, in random order (see `shuffle`):  |
+// |                                                                 | early rejection looks at the first of them        |
+// | `std::size_t solve(span<const std::size_t> sample,              | models through the sample, written to the front   |
+// |                    span<Model> models) const`                   | of `models`; 0: the sample is degenerate          |
+// | `float squared_residual(const Model&, std::size_t datum) const` | in the square of the threshold's unit; NaN is an  |
+// |                                                                 | outlier. Called most; keep it free of branches    |
+// | optional: `bool refine(span<const std::uint32_t> inliers,       | improves the model on its inliers; false: can't.  |
+// |                        Model& model) const`                     | Without it there is no local optimisation         |
+// clang-format on
 
 template <class E, class = void>
 struct is_ransac_estimator : std::false_type {};
