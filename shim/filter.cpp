@@ -102,7 +102,7 @@ class Engine {
     copy_mask(pixels);
   }
 
-  void paint_predicted_mask(double timestamp_s, int margin_px, const Pixels& pixels) {
+  void paint_predicted_keep_mask(double timestamp_s, int margin_px, const Pixels& pixels) {
     filter_.predicted_keep_mask(timestamp_s, std::max(margin_px, 0), mask_);
     copy_mask(pixels);
   }
@@ -196,8 +196,8 @@ void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept tr
   engine.fill(pixels);
 }
 
-void paint_predicted_mask(Engine& engine, double timestamp_s, int margin_px, const Pixels& pixels) noexcept try {
-  engine.paint_predicted_mask(timestamp_s, margin_px, pixels);
+void paint_predicted_keep_mask(Engine& engine, double timestamp_s, int margin_px, const Pixels& pixels) noexcept try {
+  engine.paint_predicted_keep_mask(timestamp_s, margin_px, pixels);
 } catch (...) {
   engine.fill(pixels);
 }

@@ -62,8 +62,8 @@ class Filter {
   /// frame was not judged. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
   /// @param margin_px    more is dropped around what moves; an extractor's patch should not reach into it
-  void predicted_mask(double timestamp_s, cv::Mat& mask, int margin_px = 12) const {
-    detail::paint_predicted_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
+  void predicted_keep_mask(double timestamp_s, cv::Mat& mask, int margin_px = 12) const {
+    detail::paint_predicted_keep_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
   }
 
   /// Boxes of a detector in the coming frame. None: no new answer.

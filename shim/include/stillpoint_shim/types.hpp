@@ -114,8 +114,8 @@ STILLPOINT_SHIM_API const char* filter_frame(Engine& engine, const Image& image,
 STILLPOINT_SHIM_API void copy_weights(const Engine& engine, float* weights, std::size_t size) noexcept;
 /// Of the camera's size: 255 keeps, 0 drops.
 STILLPOINT_SHIM_API void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept;
-STILLPOINT_SHIM_API void paint_predicted_mask(Engine& engine, double timestamp_s, int margin_px,
-                                              const Pixels& pixels) noexcept;
+STILLPOINT_SHIM_API void paint_predicted_keep_mask(Engine& engine, double timestamp_s, int margin_px,
+                                                   const Pixels& pixels) noexcept;
 /// @param timestamp_s  of the frame that was looked at; null: the coming one
 STILLPOINT_SHIM_API void set_boxes(Engine& engine, const Box* boxes, std::size_t count,
                                    const double* timestamp_s) noexcept;

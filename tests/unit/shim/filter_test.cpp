@@ -121,7 +121,7 @@ TEST(ShimFilter, AnswersAsTheLibraryDoes) {
     expected.mask(expected_mask, 9);
     EXPECT_EQ(cv::norm(mask, stillpoint::as_mat(expected_mask.view()), cv::NORM_INF), 0.0) << frame;
 
-    shim.predicted_mask(scene.timestamp_s + 1 / 30.0, mask, 7);
+    shim.predicted_keep_mask(scene.timestamp_s + 1 / 30.0, mask, 7);
     filter.predicted_keep_mask(scene.timestamp_s + 1 / 30.0, 7, expected_mask);
     EXPECT_EQ(cv::norm(mask, stillpoint::as_mat(expected_mask.view()), cv::NORM_INF), 0.0) << frame;
     EXPECT_TRUE(frame != 7 || cv::countNonZero(mask == 0) > 40 * 40) << "of the square's 80 x 80";
@@ -184,7 +184,7 @@ TEST(ShimFilter, ResetForgetsFramesAndAnswers) {
   filter.mask(mask);
   filter.weights(weights);
   EXPECT_EQ(cv::countNonZero(mask != 255), 0);
-  filter.predicted_mask(1.0, mask);
+  filter.predicted_keep_mask(1.0, mask);
   EXPECT_EQ(cv::countNonZero(mask != 255), 0);
   EXPECT_EQ(mask.size(), cv::Size(320, 240));
   EXPECT_TRUE(weights.empty());
