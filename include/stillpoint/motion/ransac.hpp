@@ -23,7 +23,6 @@
 namespace stillpoint {
 
 // What an Estimator offers. All calls are const; one run, one thread.
-//
 // clang-format off
 // | member                                                          | meaning                                           |
 // |-----------------------------------------------------------------|---------------------------------------------------|
@@ -39,7 +38,6 @@ namespace stillpoint {
 // | optional: `bool refine(span<const std::uint32_t> inliers,       | improves the model on its inliers; false: can't.  |
 // |                        Model& model) const`                     | Without it there is no local optimisation         |
 // clang-format on
-
 template <class E, class = void>
 struct is_ransac_estimator : std::false_type {};
 template <class E>
