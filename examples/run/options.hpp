@@ -270,9 +270,9 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   }
   for (const CLI::Option* option : app.get_options())
     if (option->count() > 0) options.given.push_back("--" + option->get_lnames().front());
+  if (!options.has_depth() && policies->empty()) options.policies = "monocular";
   detail::require_consistent(app, options);
   if (options.has_stereo() && depth_noise->empty()) options.depth_noise = "stereo";
-  if (!options.has_depth() && policies->empty()) options.policies = "monocular";
   if (!options.has_depth() && backend->empty()) options.backend = "none";  // ours takes depth
   // The paper tests features in boxes only: without them its demo would have nothing to show.
   if (options.demo && options.policies == "paper" && prior->empty()) options.prior = "boxes";

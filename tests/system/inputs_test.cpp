@@ -32,7 +32,7 @@ class Inputs : public testing::Test {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << arguments << '\n' << outcome.error;
     EXPECT_TRUE(outcome.error.empty()) << outcome.error;
-    EXPECT_EQ(files_in(out).size(), 6u);
+    EXPECT_EQ(files_in(out).size(), 7u);
     said = outcome.out;
   }
   void expect_named_error(const std::string& arguments, const std::vector<std::string>& texts) const {
@@ -255,7 +255,7 @@ TEST_F(Inputs, CtrlCEndsARunWithItsReport) {
   const std::string command = program + " > " + quoted(folder / "said") + " & run=$!; while kill -0 $run && [ ! -e " +
                               quoted(out / "features.csv.partial0") + " ]; do :; done; kill -INT $run; wait $run";
   EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(files_in(out).size(), 6u);
+  EXPECT_EQ(files_in(out).size(), 7u);
   EXPECT_TRUE(report()["interrupted"]);
   EXPECT_LT(report()["frames"], 60);
   EXPECT_GE(report()["frames"], 1);
