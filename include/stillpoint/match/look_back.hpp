@@ -202,8 +202,8 @@ class LookBack {
     const DepthScale to_depth(frame.gray, frame.depth.image);
     for (const int ring_px : {(options.occluder_reach_px + 1) / 2, options.occluder_reach_px}) {
       std::array<int, 3> u, v;
-      for (int k = 0; k < 3; ++k) {
-        const Vector2f at = to_depth(pixel.array() + static_cast<float>((k - 1) * ring_px));
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector2f at = to_depth(pixel.array() + static_cast<float>((static_cast<int>(k) - 1) * ring_px));
         u[k] = rounded(at.x());
         v[k] = rounded(at.y());
       }
