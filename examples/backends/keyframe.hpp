@@ -68,7 +68,9 @@ inline double depth_at(const Keyframe& frame, const cv::Point2f& pixel, const De
   return depth_at(stillpoint::DepthView(frame.depth.view(), frame.depth_factor), pixel, limits);
 }
 
-inline std::size_t count_depths(const Keyframe& frame) {
+/// How many of a frame's features have a depth.
+template <class Frame>
+std::size_t count_depths(const Frame& frame) {
   return static_cast<std::size_t>(
       std::count_if(frame.depth_m.begin(), frame.depth_m.end(), [](double depth_m) { return depth_m > 0; }));
 }

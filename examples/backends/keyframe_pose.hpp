@@ -106,11 +106,6 @@ class KeyframePose {
     return keyframes_.back().world_from_camera;
   }
 
-  static std::size_t count_depths(const Frame& frame) {
-    return static_cast<std::size_t>(
-        std::count_if(frame.depth_m.begin(), frame.depth_m.end(), [](double depth_m) { return depth_m > 0; }));
-  }
-
   double depth_sigma(double depth_m) const { return options.depth_sigma_factor * depth_noise.sigma(depth_m); }
 
   template <class Match>

@@ -18,6 +18,7 @@
 
 #include "keyframe.hpp"
 #include "keyframe_pose.hpp"
+#include "optical_flow.hpp"
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -78,9 +79,9 @@ class KltOdometry {
     std::vector<cv::Point2f> from, to, back;
     cv::KeyPoint::convert(last_.keypoints, from);
     to = from;
-    const std::vector<std::uint8_t> found = flow(last_pyramid_, pyramid_, from, to);
+    const std::vector<std::uint8_t> found = follow(last_pyramid_, pyramid_, from, to);
     back = from;
-    const std::vector<std::uint8_t> found_back = flow(pyramid_, last_pyramid_, to, back);
+    const std::vector<std::uint8_t> found_back = follow(pyramid_, last_pyramid_, to, back);
     points = last_;
     std::vector<std::uint8_t> keep(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
@@ -97,14 +98,10 @@ class KltOdometry {
            pixel.y <= static_cast<float>(pose.camera().height() - 1);
   }
 
-  /// Lucas-Kanade from a first guess `to`, which it improves.
-  std::vector<std::uint8_t> flow(const std::vector<cv::Mat>& from_image, const std::vector<cv::Mat>& to_image,
-                                 const std::vector<cv::Point2f>& from, std::vector<cv::Point2f>& to) const {
-    std::vector<std::uint8_t> found;
-    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.01);
-    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), options.pyramid_levels,
-                             until, cv::OPTFLOW_USE_INITIAL_FLOW);
-    return found;
+  std::vector<std::uint8_t> follow(const std::vector<cv::Mat>& from_image, const std::vector<cv::Mat>& to_image,
+                                   const std::vector<cv::Point2f>& from, std::vector<cv::Point2f>& to) const {
+    constexpr int kIterations = 30;
+    return flow(from_image, to_image, from, to, options.window_px, options.pyramid_levels, kIterations);
   }
 
   void top_up(const stillpoint::ImageView& gray, TrackedPoints& points) {

@@ -6,7 +6,6 @@
 // keyframes' depth makes points of them, and the pose is solved from the points. A lost camera is looked for in all
 // keyframes by descriptors. No map, no loop closing.
 
-#include <opencv2/calib3d.hpp>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -21,7 +20,9 @@
 #include <vector>
 
 #include "keyframe.hpp"
+#include "optical_flow.hpp"
 #include "pose_refinement.hpp"
+#include "robust_pose.hpp"
 #include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/opencv.hpp"
@@ -96,9 +97,7 @@ class RgbdOdometry {
   cv::Size window() const { return {options.window_px, options.window_px}; }
 
   cv::Mat gray_of(const stillpoint::FrameView& frame) {
-    if (!frame.gray.empty()) return stillpoint::as_mat(frame.gray);
-    stillpoint::gray_from_bgr(frame.colour, gray_);
-    return stillpoint::as_mat(gray_.view());
+    return stillpoint::as_mat(stillpoint::with_gray(frame, gray_).gray);
   }
 
   /// Everything a keyframe needs, copied: the frame's views may die.
@@ -182,21 +181,17 @@ class RgbdOdometry {
     }
     if (here.empty()) return;
     std::vector<cv::Point2f> back = here;
-    const std::vector<std::uint8_t> found = flow(current.pyramid, keyframe.pyramid, here, there);
-    const std::vector<std::uint8_t> found_back = flow(keyframe.pyramid, current.pyramid, there, back);
+    const std::vector<std::uint8_t> found = follow(current.pyramid, keyframe.pyramid, here, there);
+    const std::vector<std::uint8_t> found_back = follow(keyframe.pyramid, current.pyramid, there, back);
     for (std::size_t i = 0; i < here.size(); ++i)
       if (found[i] && found_back[i] && cv::norm(back[i] - here[i]) < options.forward_backward_px)
         add_sighting(current, feature[i], keyframe, there[i]);
   }
 
-  /// Lucas-Kanade from a first guess `to`, which it improves.
-  std::vector<std::uint8_t> flow(const std::vector<cv::Mat>& from_image, const std::vector<cv::Mat>& to_image,
-                                 const std::vector<cv::Point2f>& from, std::vector<cv::Point2f>& to) const {
-    std::vector<std::uint8_t> found;
-    const cv::TermCriteria until(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 20, 0.01);
-    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), options.pyramid_levels,
-                             until, cv::OPTFLOW_USE_INITIAL_FLOW);
-    return found;
+  std::vector<std::uint8_t> follow(const std::vector<cv::Mat>& from_image, const std::vector<cv::Mat>& to_image,
+                                   const std::vector<cv::Point2f>& from, std::vector<cv::Point2f>& to) const {
+    constexpr int kIterations = 20;
+    return flow(from_image, to_image, from, to, options.window_px, options.pyramid_levels, kIterations);
   }
 
   /// Finds the features by their descriptors, anywhere in a keyframe: when no prediction helps.
@@ -217,20 +212,8 @@ class RgbdOdometry {
     constexpr int kIterations = 200;
     constexpr double kConfidence = 0.999;
     if (sightings_.size() < options.fewest_features) return false;
-    std::vector<cv::Point3d> points;
-    std::vector<cv::Point2d> pixels;
-    for (const PointSighting& sighting : sightings_) {
-      points.emplace_back(sighting.p_world.x(), sighting.p_world.y(), sighting.p_world.z());
-      pixels.emplace_back(sighting.pixel.x(), sighting.pixel.y());
-    }
-    const cv::Matx33d k(camera_.fx(), 0, camera_.cx(), 0, camera_.fy(), camera_.cy(), 0, 0, 1);
-    cv::Vec3d rotation, translation;
-    if (!cv::solvePnPRansac(points, pixels, k, cv::noArray(), rotation, translation, false, kIterations,
-                            static_cast<float>(options.reprojection_px), kConfidence, cv::noArray(), cv::SOLVEPNP_AP3P))
-      return false;
     Pose solution = Pose::Identity();
-    solution.linear() = stillpoint::rotation_from_vector({rotation[0], rotation[1], rotation[2]});
-    solution.translation() = Vector3d(translation[0], translation[1], translation[2]);
+    if (!pose_by_ransac(sightings_, camera_, options.reprojection_px, kIterations, kConfidence, solution)) return false;
     refine(sightings_, camera_, solution, inlier_);
     double fitting = static_cast<double>(count_fitting(current, nullptr));
     // The world and a mover may both explain many features: near the expected pose lies the world.

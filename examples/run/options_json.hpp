@@ -6,8 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <cstddef>
 #include <type_traits>
 
 #include "stillpoint/filter_frame.hpp"
@@ -16,7 +14,7 @@
 namespace stillpoint_run {
 
 /// A map of the options that are visited, groups as maps of their own.
-class OptionsJson {
+class OptionsJson : public stillpoint::LooksAtOptions<OptionsJson> {
  public:
   template <class T>
   void operator()(const char* name, T& value) {
@@ -28,19 +26,7 @@ class OptionsJson {
       map[name] = nested.map;
     }
   }
-  template <class T>
-  void positive(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T>
-  void any(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T, class... Words>
-  void choice(const char* name, T& value, Words... words) {
-    const std::array<const char*, sizeof...(Words)> all{words...};
-    map[name] = all[static_cast<std::size_t>(value)];
-  }
+  void word(const char* name, const char* text) { map[name] = text; }
 
   nlohmann::ordered_json map = nlohmann::ordered_json::object();
 };

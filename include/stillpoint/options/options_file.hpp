@@ -27,7 +27,7 @@ namespace stillpoint {
 namespace detail {
 
 /// Writes every option of a stage into the map that is open.
-class OptionWriter {
+class OptionWriter : public LooksAtOptions<OptionWriter> {
  public:
   explicit OptionWriter(cv::FileStorage& storage) : storage_(storage) {}
 
@@ -49,19 +49,7 @@ class OptionWriter {
       storage_.endWriteStruct();
     }
   }
-  template <class T>
-  void positive(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T>
-  void any(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T, class... Words>
-  void choice(const char* name, T& value, Words... words) {
-    const std::array<const char*, sizeof...(Words)> all{words...};
-    cv::write(storage_, name, std::string(all[static_cast<std::size_t>(value)]));
-  }
+  void word(const char* name, const char* text) { cv::write(storage_, name, std::string(text)); }
 
  private:
   cv::FileStorage& storage_;

@@ -13,6 +13,8 @@
 //
 // A stage of your own takes part when its namespace has an `each_option` for it; one without has no options in files.
 
+#include <array>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -252,6 +254,27 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("keep_floor", filter.keep_floor);
   visit("mask_prediction", filter.mask_prediction);
 }
+
+/// What a visitor that only looks at options needs besides `(name, value)`: the range is nothing to it, and a choice is
+/// the word for its value, by `word(name, text)`.
+/// @tparam Visitor  the class that derives from this one
+template <class Visitor>
+class LooksAtOptions {
+ public:
+  template <class T>
+  void positive(const char* name, T& value) {
+    static_cast<Visitor&> (*this)(name, value);
+  }
+  template <class T>
+  void any(const char* name, T& value) {
+    static_cast<Visitor&> (*this)(name, value);
+  }
+  template <class T, class... Words>
+  void choice(const char* name, T& value, Words... words) {
+    const std::array<const char*, sizeof...(Words)> all{words...};
+    static_cast<Visitor&>(*this).word(name, all[static_cast<std::size_t>(value)]);
+  }
+};
 
 /// True for a stage or group whose options have names.
 template <class Group, class Visit, class = void>
