@@ -41,10 +41,10 @@ class SurfaceClusters {
     float neighbour_px = 25.0f;     ///< how far a feature without evidence looks for others
     float neighbour_share = 0.7f;   ///< of their log-odds it takes over
     float depthless_own = 0.4f;     ///< share of its own score in the log-odds of a feature without a depth
-    float depthless_shift = -2.0f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
+    float depthless_shift = -3.0f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
     float alone = -1.0f;            ///< log-odds of a feature that knows nothing and has no neighbours
-    float dynamic_shift = 2.0f;     ///< what a dynamic region adds to the log-odds
-    float outside_shift = -2.0f;    ///< what lies in no region when a detector has found something dynamic
+    float dynamic_shift = 3.0f;     ///< what a dynamic region adds to the log-odds
+    float outside_shift = -0.5f;    ///< what lies in no region when a detector has found something dynamic
     float movable_shift = 0.2f;
     float fixed_shift = -0.3f;
     std::uint64_t seed = Random::kDefaultSeed;
@@ -73,18 +73,23 @@ class SurfaceClusters {
                        : matches.state[i] == MatchState::outside ? Reason::outside_image
                                                                  : Reason::no_depth;
       }
-      const Membership& region = regions.of_feature[i];
-      if (!matches.current.has_depth(i)) continue;  // may lie before or behind the thing in the box
-      label.log_odds += region.in_dynamic   ? options.dynamic_shift
-                        : region.in_movable ? options.movable_shift
-                        : region.in_fixed   ? options.fixed_shift
-                        : any_dynamic       ? options.outside_shift
-                                            : 0.0f;
+      label.log_odds += shift(regions.of_feature[i], any_dynamic, matches.current.has_depth(i));
     }
   }
 
  private:
   static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+  /// What the prior adds. In a box, what has no depth may lie before or behind the thing.
+  float shift(const Membership& region, bool any_dynamic, bool has_depth) const noexcept {
+    const bool in_any = region.in_dynamic || region.in_movable || region.in_fixed;
+    if (in_any && !has_depth) return 0.0f;
+    return region.in_dynamic   ? options.dynamic_shift
+           : region.in_movable ? options.movable_shift
+           : region.in_fixed   ? options.fixed_shift
+           : any_dynamic       ? options.outside_shift
+                               : 0.0f;
+  }
 
   float held(const FeatureScore& score) const noexcept {
     return std::clamp(score.value, options.lowest, options.highest);

@@ -71,15 +71,23 @@ struct Detection {
   Mobility mobility = Mobility::unknown;
   float confidence = 1.0f;  ///< 0 to 1
   double nearest_m = 0.0;   ///< depth of the thing itself: what is nearer or farther in its box is something else …
-  double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres
+  double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres, half way down the box
+  double depth_slope_m = 0.0;  ///< a thing that leans, or is looked down on: so much farther from the top to the bottom
   std::shared_ptr<const BoxMask> mask =
       nullptr;                    ///< none: all of the box; shared, so that a detection can be copied freely
   std::int16_t class_index = -1;  ///< in the detector's list of classes, for overlays; -1: not known
 
   /// Features without a depth (0) are taken to be of the thing.
   bool holds(const Vector2f& pixel, double depth_m) const noexcept {
-    return box.contains(pixel) && (!(depth_m > 0.0) || (depth_m >= nearest_m && depth_m <= farthest_m)) &&
+    return box.contains(pixel) && (!(depth_m > 0.0) || reaches(depth_m, (pixel.y() - box.y) / box.height)) &&
            (!mask || mask->at((pixel.x() - box.x) / box.width, (pixel.y() - box.y) / box.height));
+  }
+
+ private:
+  /// @param down  share of the box's height
+  bool reaches(double depth_m, float down) const noexcept {
+    const double level_m = depth_m - depth_slope_m * (static_cast<double>(down) - 0.5);
+    return level_m >= nearest_m && level_m <= farthest_m;
   }
 };
 

@@ -36,7 +36,6 @@ template <class Visit>
 void each_option(ForegroundPrior& stage, Visit& visit) {
   each_option(static_cast<BoxPrior&>(stage), visit);
   visit("reach_m", stage.reach_m);
-  visit("fewest_depths", stage.fewest_depths);
 }
 
 template <class Visit>
@@ -47,6 +46,7 @@ void each_option(PropagatedPrior& stage, Visit& visit) {
   visit("growth_per_s", stage.carrying.growth_per_s);
   visit.positive("half_life_s", stage.carrying.half_life_s);
   visit("least_overlap", stage.carrying.least_overlap);
+  visit("most_jump_m", stage.carrying.most_jump_m);
   visit("fewest_features", stage.carrying.fewest_features);
 }
 

@@ -37,6 +37,7 @@ class PropagatedPrior : public ForegroundPrior {
     double growth_per_s = 0.2;        ///< share of its size by which an unseen box grows on each side, each second
     double half_life_s = 1.0;         ///< in which the confidence of an unseen box halves
     float least_overlap = 0.2f;       ///< intersection over union above which a new box is a carried thing's
+    double most_jump_m = 0.2;         ///< of a thing's depth from frame to frame; more is something before it
     std::size_t fewest_features = 4;  ///< on a thing, to be carried by them
   };
   Carrying carrying;
@@ -108,9 +109,10 @@ class PropagatedPrior : public ForegroundPrior {
     Detection measured = thing.detection;
     set_range(depth, to_depth, measured);
     const double jump_m = 0.5 * (measured.nearest_m + measured.farthest_m) - thing.depth_m();
-    if (thing.has_depth_range() && !(std::abs(jump_m) <= reach_m)) return;
+    if (thing.has_depth_range() && !(std::abs(jump_m) <= carrying.most_jump_m)) return;
     thing.detection.nearest_m = measured.nearest_m;
     thing.detection.farthest_m = measured.farthest_m;
+    thing.detection.depth_slope_m = measured.depth_slope_m;
   }
 
   /// Lives the frames through again that came after the answer's.
