@@ -29,7 +29,7 @@ class FlowNeighbours {
     float lowest = -0.5f;          ///< a single score is held above this, nats
     float alone = -1.0f;           ///< log-odds of a feature that knows nothing and has no neighbours
     float dynamic_shift = 1.5f;    ///< what lies in a dynamic region; the background seen there as well
-    float outside_shift = -1.0f;   ///< what lies in none, when a detector has found something dynamic
+    float outside_shift = -1.0f;   ///< what lies in none, also where there is no detector: flow alone errs
     float movable_shift = 0.2f;
     float fixed_shift = -0.3f;
   };

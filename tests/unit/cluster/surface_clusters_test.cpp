@@ -166,12 +166,15 @@ TEST_F(SurfaceClustersTest, ThePriorShiftsTheOddsOnce) {
 TEST_F(SurfaceClustersTest, OutsideOfDynamicRegionsThingsRatherStand) {
   clusters_.options.outside_shift = -0.75f;
   for (int i = 0; i < 4; ++i) add({300 + 5.0f * static_cast<float>(i), 100}, 2.0, 0.0f);
+  add({300, 100}, 0.0, kNaN);  // its neighbours say (0 − 1) · 0.5
   regions_.detections = {{{0, 0, 50, 50}, Mobility::movable, 1.0f}};
   classify();
   EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding);
+  EXPECT_NEAR(labels_[4].log_odds, -0.5f, kRounding);
   regions_.detections.push_back({{100, 0, 50, 50}, Mobility::dynamic, 1.0f});
   classify();
   EXPECT_NEAR(labels_[0].log_odds, -1.75f, kRounding);
+  EXPECT_NEAR(labels_[4].log_odds, -1.25f, kRounding) << "outside of every box it is outside, whatever its depth";
 }
 
 // Neighbours say (0 − 1) · 0.5 = −0.5. With a score of 5 of its own: 0.25 · (5 − 1) + 0.75 · (−0.5) = 0.625; and two

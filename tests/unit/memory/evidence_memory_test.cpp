@@ -49,6 +49,7 @@ class EvidenceMemoryTest : public testing::Test {
       matches_.current.pixel[i] = features[i].pixel;
       matches_.current.depth_m[i] = features[i].depth_m;
     }
+    matches_.sightings.surfaces = surfaces_;
     memory_.recall(matches_, workspace_);
     labels_.assign(features.size(), Label{});
     for (std::size_t i = 0; i < features.size(); ++i) {
@@ -59,8 +60,16 @@ class EvidenceMemoryTest : public testing::Test {
   }
   void frame(float log_odds) { frame({{Vector2f(50, 50)}}, {log_odds}); }
 
+  static SurfaceCell cell(float u, double z) {
+    SurfaceCell surface;
+    surface.pixel = {u, 50};
+    surface.point = {0, 0, z};
+    return surface;
+  }
+
   EvidenceMemory memory_;
   Matches matches_;
+  std::vector<SurfaceCell> surfaces_;  ///< of every frame
   std::vector<Label> labels_;
   Workspace workspace_;
 };
@@ -214,17 +223,49 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
   std::vector<float> log_odds;
   ring(10, features, log_odds);
   frame(features, log_odds);
-  const auto cell = [](float u, double z) {
-    SurfaceCell surface;
-    surface.pixel = {u, 50};
-    surface.point = {0, 0, z};
-    return surface;
-  };
   matches_.sightings.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
   memory_.recall(matches_, workspace_);
   EXPECT_NEAR(matches_.sightings.surfaces[0].trust, 1.0f - 0.9f * 0.9f, kRounding);
   EXPECT_EQ(matches_.sightings.surfaces[1].trust, 1.0f);
   EXPECT_EQ(matches_.sightings.surfaces[2].trust, 1.0f);
+}
+
+// A ring of features moves and is gone a frame later; the cell in its middle, 20 px from each, stays suspect by itself,
+// and hands that on to the next feature there. Nothing else knows of it any more.
+TEST_F(EvidenceMemoryTest, SurfaceCellsHandSuspicionOnWhereThereIsNoFeature) {
+  std::vector<Feature> features;
+  std::vector<float> log_odds;
+  ring(10, features, log_odds);
+  surfaces_ = {cell(50, 2.0), cell(120, 2.0)};
+  frame(features, log_odds);
+  frame(features, log_odds);
+  frame({{Vector2f(300, 300)}}, {-1.0f});
+  frame({{Vector2f(50, 50)}, {Vector2f(50, 52), 3.0}, {Vector2f(120, 50)}}, {-1.0f, -1.0f, -1.0f});
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_EQ(matches_.trust[1], 1.0f) << "another surface";
+  EXPECT_EQ(matches_.trust[2], 1.0f) << "a cell that was never beside anything that moved";
+  EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a cell hands no log-odds on";
+}
+
+// Ten features with a depth moved, ten without stood still, all 20 px from the middle: a new feature there asks its own
+// kind, and the other, with a vote of 0.02, only where there is none of its own.
+TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther) {
+  std::vector<Feature> features, depthless;
+  std::vector<float> log_odds, standing;
+  ring(10, features, log_odds);
+  frame(features, log_odds);
+  frame({{Vector2f(50, 50), 0.0}}, {-1.0f});
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding) << "there is no other to ask";
+  memory_.reset();
+  ring(0, depthless, standing);
+  for (std::size_t k = 0; k < depthless.size(); ++k) {
+    features.push_back({depthless[k].pixel, 0.0});
+    log_odds.push_back(standing[k]);
+  }
+  frame(features, log_odds);
+  frame({{Vector2f(50, 50)}, {Vector2f(50, 50), 0.0}}, {-1.0f, -1.0f});
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_EQ(matches_.trust[1], 1.0f);
 }
 
 // A gain of 0.6: the first frame adds 0.6, which a majority of (0.6 − 0.25) / 0.5 = 0.7 hands on, times 0.9: 0.63. The

@@ -48,6 +48,23 @@ TEST_F(ForegroundPriorTest, TheMiddleOfABoxIsTheThing) {
   EXPECT_TRUE(person.holds({80, 60}, 0.0)) << "without a depth nothing speaks against it";
 }
 
+// From 1.3 m at the head to 1.7 m at the feet: 0.005 m a row, half way down 1.5 m. The wall at 3 m shows between the
+// legs, in the lowest fifth, and is not asked.
+TEST_F(ForegroundPriorTest, APersonWhoIsLookedDownOnLeans) {
+  prior_.reach_m = 0.1;
+  for (int v = 20; v < 100; ++v)
+    depth_(cv::Rect(65, v, 30, 1)).setTo(1.3f + 0.005f * (static_cast<float>(v) - 20.0f));
+  depth_(cv::Rect(68, 84, 24, 16)).setTo(3.0f);
+  const Detection person = only(depth_);
+  EXPECT_NEAR(person.depth_slope_m, 0.4, 0.01);
+  EXPECT_NEAR(person.nearest_m, 1.4, 0.01);
+  EXPECT_NEAR(person.farthest_m, 1.6, 0.01);
+  EXPECT_TRUE(person.holds({80, 22}, 1.31));
+  EXPECT_FALSE(person.holds({80, 22}, 1.69)) << "as deep as the feet, at the height of the head";
+  EXPECT_TRUE(person.holds({66, 98}, 1.69));
+  EXPECT_FALSE(person.holds({66, 98}, 1.31));
+}
+
 TEST_F(ForegroundPriorTest, ADepthImageOfAnotherSizeHasTheSameFieldOfView) {
   cv::Mat half(60, 80, CV_32FC1, cv::Scalar(3.0f));
   half(cv::Rect(33, 10, 14, 40)).setTo(1.5f);
