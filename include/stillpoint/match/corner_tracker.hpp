@@ -29,7 +29,7 @@ class CornerTracker {
     std::size_t pyramid_levels = 4;  ///< with a reach of 3 px on each: 45 px between two frames
     float most_dissimilar = 0.3f;    ///< 1 − correlation above which a corner is lost
     float too_vague = 0.5f;          ///< on a coarse level a fit this bad does not move the start of the next
-    float fewest_pixels = 25;        ///< of a patch's 64 that must lie on the corner's surface
+    int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the corner's surface
     float border_px = 8.0f;          ///< nearer to the border than this a match is `near_edge`
     DepthTolerance same_surface;
   };

@@ -33,7 +33,7 @@ class LookBack {
     double detectable_sigmas = 3.0;  ///< … by a step of this many standard deviations
     double pixel_sigma = 0.7;        ///< of a found patch, pixels
     double longest_s = 0.5;          ///< but no frame is older than this
-    float fewest_pixels = 25;        ///< of a patch's 64 that must lie on the feature's surface
+    int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the feature's surface
     DepthTolerance same_surface;
     double occlusion_m = 0.15;       ///< a surface this much nearer hides the point …
     double occlusion_sigmas = 4.0;   ///< … and this many standard deviations of both depths more

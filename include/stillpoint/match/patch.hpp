@@ -3,8 +3,6 @@
 #pragma once
 
 // Small square patches: cut out of one image, found again in another.
-//
-// Sampling is written as loops of constant length over rows of kSide floats, so that compilers vectorise them.
 
 #include <algorithm>
 #include <cmath>
@@ -15,28 +13,34 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/match/patch_pixels.hpp"
 
 namespace stillpoint {
 
-/// One float for each pixel of a patch, rows one after the other.
-using PatchArray = Eigen::Array<float, 64, 1>;
-
-/// What a patch looks like: gray values without their mean, and their gradients, where the mask allows.
+/// What a patch looks like: gray values and their slopes, where the mask allows; 0 elsewhere.
 struct Patch {
-  static constexpr int kSide = 8;  ///< pixels; covers −4 … +3 round its centre
+  static constexpr int kSide = PatchPixels::kSide;  ///< 8 pixels: −4 … +3 round its centre
   static constexpr int kHalf = kSide / 2;
   static constexpr int kMargin = kHalf + 1;  ///< a centre nearer to the border cannot be cut out
 
-  PatchArray value, gradient_x, gradient_y;
-  PatchArray mask;                  ///< 1 takes part, 0 does not
-  float count = 0;                  ///< how many take part
-  float energy = 0;                 ///< Σ value²
-  float hxx = 0, hxy = 0, hyy = 0;  ///< Σ gradient gradientᵀ: the structure tensor
+  PatchPixels value;
+  PatchPixels slope_x, slope_y;       ///< differences across two pixels: twice the gradient
+  PatchPixels mask;                   ///< −1 takes part, 0 does not
+  int count = 0;                      ///< how many take part
+  int sum = 0, sum_x = 0, sum_y = 0;  ///< Σ value, Σ slope
+  int along_x = 0, along_y = 0;       ///< Σ slope · value
+  float energy = 0;                   ///< Σ value², values without their mean
+  float hxx = 0, hxy = 0, hyy = 0;    ///< Σ gradient gradientᵀ, gradients without their mean: the structure tensor
 
   /// Smaller eigenvalue of the structure tensor: how well the patch can be located in its worst direction.
   float corner_strength() const noexcept {
     const float trace_half = 0.5f * (hxx + hyy), difference_half = 0.5f * (hxx - hyy);
     return trace_half - std::sqrt(difference_half * difference_half + hxy * hxy);
+  }
+
+  /// Σ a b of two quantities without their means, from the sums of what they are: exact until the division.
+  float without_means(std::int64_t product, std::int64_t sum_a, std::int64_t sum_b) const noexcept {
+    return static_cast<float>(count * product - sum_a * sum_b) / static_cast<float>(count);
   }
 };
 
@@ -60,7 +64,11 @@ class PatchMask {
  public:
   PatchMask() = default;  ///< all of them
   PatchMask(const DepthView& depth, double depth_m, const DepthTolerance& tolerance)
-      : depth_(depth_m > 0 ? &depth : nullptr), depth_m_(depth_m), tolerance_m_(tolerance.at(depth_m)) {}
+      : depth_(depth_m > 0 ? &depth : nullptr) {
+    const double units = depth.image.format == PixelFormat::depth16 ? depth.factor : 1.0;
+    nearest_ = static_cast<float>((depth_m - tolerance.at(depth_m)) * units);
+    farthest_ = static_cast<float>((depth_m + tolerance.at(depth_m)) * units);
+  }
   PatchMask(const DepthView& depth, const Vector2f& pixel, const DepthTolerance& tolerance)
       : PatchMask(depth, depth_at(depth, pixel), tolerance) {}
 
@@ -68,25 +76,31 @@ class PatchMask {
   bool applies_to(const ImageView& image) const noexcept {
     return depth_ != nullptr && depth_->image.width == image.width && depth_->image.height == image.height;
   }
-  /// Takes out of a row of a patch's mask what lies elsewhere, from pixel (u, v) on.
-  void apply(int u, int v, float* row) const noexcept {
-    if (depth_->image.format == PixelFormat::depth16)
-      apply(depth_->image.row<std::uint16_t>(v) + u, depth_->factor, row);
-    else
-      apply(depth_->image.row<float>(v) + u, 1.0, row);
+
+  /// Fills the mask of a patch whose first pixel is (u, v).
+  void fill(int u, int v, PatchPixels& mask) const noexcept {
+    if (depth_->image.format == PixelFormat::depth16) {
+      constexpr float kMost = std::numeric_limits<std::uint16_t>::max();
+      fill(u, v, static_cast<std::uint16_t>(std::clamp(std::ceil(nearest_), 0.0f, kMost)),
+           static_cast<std::uint16_t>(std::clamp(std::floor(farthest_), 0.0f, kMost)), mask);
+    } else {
+      fill(u, v, nearest_, farthest_, mask);
+    }
   }
 
  private:
   /// Compared in the units of the image: no division a pixel. What is not finite and above 0 is no depth.
   template <class Depth>
-  void apply(const Depth* depth, double factor, float* row) const noexcept {
-    const auto nearest = static_cast<float>((depth_m_ - tolerance_m_) * factor);
-    const auto farthest = static_cast<float>((depth_m_ + tolerance_m_) * factor);
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    for (int i = 0; i < Patch::kSide; ++i) {
-      const auto there = static_cast<float>(depth[i]);
-      const bool elsewhere = (there > 0.0f && there < nearest) || (there > farthest && there < kInfinity);
-      row[i] = elsewhere ? 0.0f : row[i];
+  void fill(int u, int v, Depth nearest, Depth farthest, PatchPixels& mask) const noexcept {
+    constexpr Depth kMost = std::numeric_limits<Depth>::max();
+    for (int j = 0; j < Patch::kSide; ++j) {
+      const Depth* const depth = depth_->image.row<Depth>(v + j) + u;
+      std::int16_t* const row = mask.row(j);
+      for (int i = 0; i < Patch::kSide; ++i) {
+        const Depth there = depth[i];
+        const bool here = ((there >= nearest) & (there <= farthest)) | !((there > 0) & (there <= kMost));
+        row[i] = here ? std::int16_t{-1} : std::int16_t{0};
+      }
     }
   }
 
@@ -96,7 +110,7 @@ class PatchMask {
   }
 
   const DepthView* depth_ = nullptr;
-  double depth_m_ = 0, tolerance_m_ = 0;
+  float nearest_ = 0, farthest_ = 0;  // in the units of the depth image
 };
 
 /// Cuts a patch out.
@@ -105,32 +119,36 @@ class PatchMask {
 inline bool cut_patch(const ImageView& gray, const Vector2f& centre, const PatchMask& mask, Patch& patch) noexcept {
   if (!(gray.border_distance_px(centre.x(), centre.y()) >= static_cast<float>(Patch::kMargin))) return false;
   const auto u = static_cast<int>(centre.x()), v = static_cast<int>(centre.y());
-  const bool masked = mask.applies_to(gray);
-  patch.mask.setOnes();
+  if (mask.applies_to(gray))
+    mask.fill(u - Patch::kHalf, v - Patch::kHalf, patch.mask);
+  else
+    patch.mask.pixel.fill(-1);
   for (int j = 0; j < Patch::kSide; ++j) {
-    const int row = v - Patch::kHalf + j, first = u - Patch::kHalf, k = j * Patch::kSide;
+    const int row = v - Patch::kHalf + j, first = u - Patch::kHalf;
     const std::uint8_t* const above = gray.row<std::uint8_t>(row - 1) + first;
     const std::uint8_t* const here = gray.row<std::uint8_t>(row) + first;
     const std::uint8_t* const below = gray.row<std::uint8_t>(row + 1) + first;
+    const std::int16_t* const allowed = patch.mask.row(j);
+    std::int16_t* const value = patch.value.row(j);
+    std::int16_t *const slope_x = patch.slope_x.row(j), *const slope_y = patch.slope_y.row(j);
     for (int i = 0; i < Patch::kSide; ++i) {
-      patch.value[k + i] = here[i];
-      patch.gradient_x[k + i] = 0.5f * static_cast<float>(here[i + 1] - here[i - 1]);
-      patch.gradient_y[k + i] = 0.5f * static_cast<float>(below[i] - above[i]);
+      value[i] = static_cast<std::int16_t>(allowed[i] & here[i]);
+      slope_x[i] = static_cast<std::int16_t>(allowed[i] & (here[i + 1] - here[i - 1]));
+      slope_y[i] = static_cast<std::int16_t>(allowed[i] & (below[i] - above[i]));
     }
-    if (masked) mask.apply(first, row, patch.mask.data() + k);
   }
-  patch.count = patch.mask.sum();
+  patch.count = -sum(patch.mask);
   if (!(patch.count > 0)) return false;
-  const auto subtract_mean = [&patch](PatchArray& values) {
-    values = patch.mask * (values - (patch.mask * values).sum() / patch.count);
-  };
-  subtract_mean(patch.value);
-  subtract_mean(patch.gradient_x);
-  subtract_mean(patch.gradient_y);
-  patch.energy = patch.value.square().sum();
-  patch.hxx = patch.gradient_x.square().sum();
-  patch.hxy = (patch.gradient_x * patch.gradient_y).sum();
-  patch.hyy = patch.gradient_y.square().sum();
+  patch.sum = sum(patch.value);
+  patch.sum_x = sum(patch.slope_x);
+  patch.sum_y = sum(patch.slope_y);
+  patch.along_x = product(patch.slope_x, patch.value);
+  patch.along_y = product(patch.slope_y, patch.value);
+  patch.energy = patch.without_means(product(patch.value, patch.value), patch.sum, patch.sum);
+  constexpr float kQuarter = 0.25f;  // of two slopes each twice a gradient
+  patch.hxx = kQuarter * patch.without_means(product(patch.slope_x, patch.slope_x), patch.sum_x, patch.sum_x);
+  patch.hxy = kQuarter * patch.without_means(product(patch.slope_x, patch.slope_y), patch.sum_x, patch.sum_y);
+  patch.hyy = kQuarter * patch.without_means(product(patch.slope_y, patch.slope_y), patch.sum_y, patch.sum_y);
   return true;
 }
 
@@ -147,7 +165,7 @@ namespace detail {
 
 /// Samples a patch bilinearly round `centre`; false when it leaves the image.
 inline bool sample_patch(const ImageView& gray, const Vector2f& centre, const Eigen::Matrix2f& warp, bool shifted_only,
-                         PatchArray& out) noexcept {
+                         PatchPixels& out) noexcept {
   constexpr int kSide = Patch::kSide, kHalf = Patch::kHalf;
   if (shifted_only) {
     const float x = centre.x() - kHalf, y = centre.y() - kHalf;
@@ -155,13 +173,9 @@ inline bool sample_patch(const ImageView& gray, const Vector2f& centre, const Ei
           y + kSide + 1 < static_cast<float>(gray.height)))
       return false;
     const int u = static_cast<int>(x), v = static_cast<int>(y);
-    const float a = x - static_cast<float>(u), b = y - static_cast<float>(v);
-    const float w00 = (1 - a) * (1 - b), w01 = a * (1 - b), w10 = (1 - a) * b, w11 = a * b;
-    for (int j = 0; j < kSide; ++j) {
-      const std::uint8_t* const p = gray.row<std::uint8_t>(v + j) + u;
-      const std::uint8_t* const q = gray.row<std::uint8_t>(v + j + 1) + u;
-      for (int i = 0; i < kSide; ++i) out[j * kSide + i] = w00 * p[i] + w01 * p[i + 1] + w10 * q[i] + w11 * q[i + 1];
-    }
+    const BilinearWeights weights(x - static_cast<float>(u), y - static_cast<float>(v));
+    for (int j = 0; j < kSide; ++j)
+      sample_row(gray.row<std::uint8_t>(v + j) + u, gray.row<std::uint8_t>(v + j + 1) + u, weights, out.row(j));
     return true;
   }
   const float reach_x = kHalf * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));
@@ -176,10 +190,8 @@ inline bool sample_patch(const ImageView& gray, const Vector2f& centre, const Ei
       const float x = centre.x() + warp(0, 0) * di + warp(0, 1) * dj;
       const float y = centre.y() + warp(1, 0) * di + warp(1, 1) * dj;
       const int u = static_cast<int>(x), v = static_cast<int>(y);
-      const float a = x - static_cast<float>(u), b = y - static_cast<float>(v);
-      const std::uint8_t* const p = gray.row<std::uint8_t>(v) + u;
-      const std::uint8_t* const q = gray.row<std::uint8_t>(v + 1) + u;
-      out[j * kSide + i] = (1 - b) * ((1 - a) * p[0] + a * p[1]) + b * ((1 - a) * q[0] + a * q[1]);
+      const BilinearWeights weights(x - static_cast<float>(u), y - static_cast<float>(v));
+      out.row(j)[i] = sample_pixel(gray.row<std::uint8_t>(v) + u, gray.row<std::uint8_t>(v + 1) + u, weights);
     }
   }
   return true;
@@ -197,20 +209,27 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
   const float warp_px = Patch::kHalf * (search.warp - Eigen::Matrix2f::Identity()).cwiseAbs().maxCoeff();
   const bool shifted_only = warp_px < 0.5f;
   Vector2f offset = Vector2f::Zero();
-  PatchArray sample;
+  PatchPixels sample;
+  constexpr int kOne = BilinearWeights::kOne;
   for (int iteration = 0; iteration < search.iterations; ++iteration) {
     if (!detail::sample_patch(gray, start + offset, search.warp, shifted_only, sample)) break;
     best.inside = true;
-    sample = patch.mask * (sample - (patch.mask * sample).sum() / patch.count);
-    const float energy = sample.square().sum(), product = (sample * patch.value).sum();
-    const float dissimilarity = 1.0f - product / std::sqrt(patch.energy * energy + 1e-3f);
+    apply_mask(patch.mask, sample);
+    const int total = sum(sample);
+    const float energy = patch.without_means(product(sample, sample), total, total) / (kOne * kOne);
+    const float likeness = patch.without_means(product(patch.value, sample), patch.sum, total) / kOne;
+    const float dissimilarity = 1.0f - likeness / std::sqrt(patch.energy * energy + 1e-3f);
     if (dissimilarity < best.dissimilarity) {
       best.dissimilarity = dissimilarity;
       best.offset = offset;
     }
     if (!(determinant > 0)) break;
-    sample -= patch.value;
-    const float bx = (patch.gradient_x * sample).sum(), by = (patch.gradient_y * sample).sum();
+    // Σ gradient · (sample − value)
+    const int excess = total - kOne * patch.sum;
+    const int excess_x = product(patch.slope_x, sample) - kOne * patch.along_x;
+    const int excess_y = product(patch.slope_y, sample) - kOne * patch.along_y;
+    const float bx = patch.without_means(excess_x, patch.sum_x, excess) / (2 * kOne);
+    const float by = patch.without_means(excess_y, patch.sum_y, excess) / (2 * kOne);
     Vector2f step(-(patch.hyy * bx - patch.hxy * by) / determinant, -(patch.hxx * by - patch.hxy * bx) / determinant);
     step = (search.warp * step).cwiseMax(-1.0f).cwiseMin(1.0f);
     const Vector2f before = offset;

@@ -30,33 +30,38 @@ cv::Mat painted(int width, int height, const Gray& gray) {
 
 // ---- Cutting out ----
 
-// A patch at (8, 8) covers 4 … 11, whose mean is 7.5 and whose variance 5.25. Of 2u + 3v that leaves
-// 2·4 + 3·4 − 37.5 = −17.5 in its first pixel, and Σ value² = 64 · (4 + 9) · 5.25 = 4368.
-TEST(Patch, IsFreeOfItsMean) {
+// A patch at (8, 8) covers 4 … 11, whose mean is 7.5 and whose variance 5.25. 2u + 3v has the mean 37.5 there; without
+// it Σ value² = 64 · (4 + 9) · 5.25 = 4368.
+TEST(Patch, ItsEnergyIsFreeOfItsMean) {
   const cv::Mat image = painted(20, 20, [](int u, int v) { return 2 * u + 3 * v; });
   Patch patch;
   ASSERT_TRUE(cut_patch(image, {8, 8}, PatchMask(), patch));
-  EXPECT_EQ(patch.count, 64.0f);
-  EXPECT_FLOAT_EQ(patch.value[0], -17.5f);
-  EXPECT_FLOAT_EQ(patch.value[1], -15.5f) << "rows first";
-  EXPECT_FLOAT_EQ(patch.value[8], -14.5f);
-  EXPECT_NEAR(patch.value.sum(), 0.0f, 1e-3f);
+  EXPECT_EQ(patch.count, 64);
+  EXPECT_EQ(patch.value[0], 20);
+  EXPECT_EQ(patch.value[1], 22) << "rows first";
+  EXPECT_EQ(patch.value[8], 23);
+  EXPECT_EQ(patch.sum, 2400);
+  EXPECT_EQ(patch.sum_x, 64 * 4);
+  EXPECT_EQ(patch.sum_y, 64 * 6);
+  EXPECT_EQ(patch.along_x, 2400 * 4);
+  EXPECT_EQ(patch.along_y, 2400 * 6);
   EXPECT_FLOAT_EQ(patch.energy, 4368.0f);
   EXPECT_EQ(patch.hxx, 0.0f) << "gradients are without their mean: a ramp cannot be told from brightness";
   EXPECT_EQ(patch.hyy, 0.0f);
 }
 
-// The gradient of u² is 2u: −7 … 7 round its mean, Σ = 64 · 4 · 5.25 = 1344. Nothing in the other direction.
+// The gradient of u² is 2u, and (u + 1)² − (u − 1)² = 4u twice that; round its mean −7 … 7, Σ = 64 · 4 · 5.25 = 1344.
+// Nothing in the other direction.
 TEST(Patch, HasTheStructureTensorOfItsGradients) {
   Patch across, along;
   ASSERT_TRUE(cut_patch(painted(16, 16, [](int u, int) { return u * u; }), {8, 8}, PatchMask(), across));
-  EXPECT_FLOAT_EQ(across.gradient_x[0], -7.0f);
+  EXPECT_EQ(across.slope_x[0], 16);
   EXPECT_FLOAT_EQ(across.hxx, 1344.0f);
   EXPECT_EQ(across.hxy, 0.0f);
   EXPECT_EQ(across.hyy, 0.0f);
   EXPECT_NEAR(across.corner_strength(), 0.0f, 1e-3f);
   ASSERT_TRUE(cut_patch(painted(16, 16, [](int, int v) { return v * v; }), {8, 8}, PatchMask(), along));
-  EXPECT_FLOAT_EQ(along.gradient_y[0], -7.0f);
+  EXPECT_EQ(along.slope_y[0], 16);
   EXPECT_FLOAT_EQ(along.hyy, 1344.0f);
   // (5 2; 2 2) has the eigenvalues 6 and 1.
   across.hxx = 5;
@@ -73,30 +78,32 @@ TEST(Patch, LeavesOutWhatLiesOnAnotherSurface) {
   const DepthView view(depth);
   Patch patch;
   ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, 2.0, DepthTolerance()), patch));
-  EXPECT_EQ(patch.count, 48.0f);
-  for (int k = 0; k < 64; ++k) EXPECT_EQ(patch.mask[k], k % 8 < 6 ? 1.0f : 0.0f) << k;
-  EXPECT_FLOAT_EQ(patch.value[0], -2.5f);
-  EXPECT_EQ(patch.value[6], 0.0f);
-  EXPECT_EQ(patch.gradient_x[7], 0.0f);
+  EXPECT_EQ(patch.count, 48);
+  for (std::size_t k = 0; k < 64; ++k) EXPECT_EQ(patch.mask[k], k % 8 < 6 ? -1 : 0) << k;
+  EXPECT_EQ(patch.sum, 48 * 9 / 2);
+  EXPECT_EQ(patch.value[0], 2);
+  EXPECT_EQ(patch.value[6], 0);
+  EXPECT_EQ(patch.slope_x[7], 0);
   // The centre's own depth gives the same.
   Patch again;
   ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, Vector2f(6, 8), DepthTolerance()), again));
-  EXPECT_TRUE((again.mask == patch.mask).all());
+  EXPECT_EQ(again.mask.pixel, patch.mask.pixel);
 }
 
 // Tolerance at 2 m: 0.05 + 0.0076 · 4 = 0.0804 m.
 TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
   constexpr DepthTolerance kTolerance{0.05, 0.0076};
   EXPECT_NEAR(kTolerance.at(2.0), 0.0804, 1e-12);
-  const cv::Mat metres = (cv::Mat_<float>(1, 8) << 2.0f, 2.0803f, 2.0805f, 1.9197f, 1.9195f, 0.0f, kInfinity, kNaN);
+  const cv::Mat row = (cv::Mat_<float>(1, 8) << 2.0f, 2.0803f, 2.0805f, 1.9197f, 1.9195f, 0.0f, kInfinity, kNaN);
+  const cv::Mat metres = cv::repeat(row, 8, 1);
   cv::Mat tenths;  // of a millimetre
   metres.convertTo(tenths, CV_16U, 10000.0);
   tenths.colRange(6, 8) = 0;
   for (const DepthView& view : {DepthView(metres), DepthView(tenths, 10000.0)}) {
-    float row[8] = {1, 1, 1, 1, 1, 1, 1, 1};
-    PatchMask(view, 2.0, kTolerance).apply(0, 0, row);
-    const float expected[8] = {1, 1, 0, 1, 0, 1, 1, 1};
-    for (int u = 0; u < 8; ++u) EXPECT_EQ(row[u], expected[u]) << u;
+    PatchPixels mask;
+    PatchMask(view, 2.0, kTolerance).fill(0, 0, mask);
+    const int expected[8] = {-1, -1, 0, -1, 0, -1, -1, -1};
+    for (std::size_t k = 0; k < 64; ++k) EXPECT_EQ(mask[k], expected[k % 8]) << k;
   }
 }
 

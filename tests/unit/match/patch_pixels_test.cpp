@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/match/patch_pixels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "stillpoint/core/random.hpp"
+
+namespace stillpoint {
+namespace {
+
+std::uint8_t gray(Random& random) { return static_cast<std::uint8_t>(random.index(256)); }
+
+// A quarter to the right, half down: (3 · 10 + 20 + 3 · 30 + 80) / 8 = 27.5 gray levels, 440 sixteenths.
+TEST(BilinearWeights, AreSharesOfFourPixels) {
+  const BilinearWeights weights(0.25f, 0.5f);
+  EXPECT_EQ(weights.here, 6144);
+  EXPECT_EQ(weights.right, 2048);
+  EXPECT_EQ(weights.below, 6144);
+  EXPECT_EQ(weights.diagonal, 2048);
+  const std::uint8_t upper[2] = {10, 20}, lower[2] = {30, 80};
+  EXPECT_EQ(sample_pixel(upper, lower, weights), 440);
+}
+
+// Three roundings of ½ each may leave the fourth weight 1.5 below its share; what is sampled is a weighted mean all the
+// same, off by at most 255 · 3 / 2¹⁴ gray levels for the weights and 1 / 32 for its own rounding.
+TEST(BilinearWeights, SampleWhatFloatsDo) {
+  Random random(1);
+  constexpr double kTolerance = 255.0 * 3 / 16384 + 1.0 / 32;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const auto a = static_cast<float>(random.uniform()), b = static_cast<float>(random.uniform());
+    const BilinearWeights weights(a, b);
+    EXPECT_EQ(weights.here + weights.right + weights.below + weights.diagonal, 1 << 14);
+    const std::uint8_t upper[2] = {gray(random), gray(random)}, lower[2] = {gray(random), gray(random)};
+    const double expected =
+        (1.0 - b) * ((1.0 - a) * upper[0] + a * upper[1]) + b * ((1.0 - a) * lower[0] + a * lower[1]);
+    ASSERT_NEAR(sample_pixel(upper, lower, weights) / 16.0, expected, kTolerance);
+  }
+}
+
+TEST(BilinearWeights, AWholePixelIsItself) {
+  const std::uint8_t upper[2] = {255, 3}, lower[2] = {7, 11};
+  EXPECT_EQ(sample_pixel(upper, lower, BilinearWeights(0, 0)), 255 * 16);
+  EXPECT_EQ(sample_pixel(upper, lower, BilinearWeights(1, 1)), 11 * 16);
+}
+
+// The kernel of eight pixels against the one of one pixel, bit for bit.
+TEST(SampleRow, IsEightTimesSamplePixel) {
+  Random random(2);
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::array<std::uint8_t, 9> upper, lower;
+    // White, black and anything between: sums are largest in white.
+    for (std::uint8_t& pixel : upper) pixel = trial % 3 == 0 ? 255 : trial % 3 == 1 ? 0 : gray(random);
+    for (std::uint8_t& pixel : lower) pixel = trial % 4 == 0 ? 255 : gray(random);
+    const BilinearWeights weights(static_cast<float>(random.uniform()), static_cast<float>(random.uniform()));
+    std::array<std::int16_t, 8> row;
+    sample_row(upper.data(), lower.data(), weights, row.data());
+    for (std::size_t i = 0; i < 8; ++i) ASSERT_EQ(row[i], sample_pixel(&upper[i], &lower[i], weights)) << i;
+  }
+}
+
+// The largest that can be: 64 samples of 255 levels in sixteenths, 64 · 4080² = 1065369600 < 2³¹.
+TEST(PatchPixels, SumsDoNotOverflow) {
+  PatchPixels white;
+  white.pixel.fill(4080);
+  EXPECT_EQ(sum(white), 64 * 4080);
+  EXPECT_EQ(product(white, white), 1065369600);
+}
+
+TEST(PatchPixels, AreMaskedPixelByPixel) {
+  Random random(3);
+  PatchPixels mask, pixels;
+  std::int32_t expected = 0, expected_product = 0;
+  for (std::size_t k = 0; k < PatchPixels::kCount; ++k) {
+    mask.pixel[k] = random.uniform() < 0.5 ? 0 : -1;
+    pixels.pixel[k] = static_cast<std::int16_t>(static_cast<int>(random.index(511)) - 255);
+    if (mask[k] == 0) continue;
+    expected += pixels[k];
+    expected_product += pixels[k] * pixels[k];
+  }
+  apply_mask(mask, pixels);
+  EXPECT_EQ(sum(pixels), expected);
+  EXPECT_EQ(product(pixels, pixels), expected_product);
+}
+
+}  // namespace
+}  // namespace stillpoint
