@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "feature_weights.hpp"
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -28,8 +29,13 @@ using stillpoint::span;
 struct OrbFeatures {
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
+  FeatureWeights weights;
 
-  void compact(span<const std::uint8_t> keep) { stillpoint::compact(keep, keypoints, descriptors); }
+  void compact(span<const std::uint8_t> keep) {
+    stillpoint::compact(keep, keypoints, descriptors);
+    weights.compact(keep);
+  }
+  void weigh(span<const float> some) { weights.assign(some); }
 };
 
 /// A frame with its images. Where its camera stands is known once it is a keyframe.

@@ -119,7 +119,8 @@ class KeyframePose {
       const Vector3d p_keyframe = camera_.back_project(keyframe.pixel[pair.keyframe], depth_there_m);
       const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(depth_there_m) / depth_there_m);
       sightings_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[pair.current], options.pixel_sigma,
-                            depth_m, depth_sigma(depth_m), keyframe.world_from_camera.linear() * p_keyframe_sigma_m});
+                            depth_m, depth_sigma(depth_m), keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
+                            current.features.weights[pair.current]});
       sources_.push_back({pair.current, &keyframe});
     }
   }

@@ -32,7 +32,13 @@ struct TrackedPoints {
   std::vector<cv::KeyPoint> keypoints;
   std::vector<std::uint64_t> ids;  ///< ascending; one that is gone never comes back
 
-  void compact(span<const std::uint8_t> keep) { stillpoint::compact(keep, keypoints, ids); }
+  FeatureWeights weights;
+
+  void compact(span<const std::uint8_t> keep) {
+    stillpoint::compact(keep, keypoints, ids);
+    weights.compact(keep);
+  }
+  void weigh(span<const float> some) { weights.assign(some); }
 };
 
 /// A backend of `FilteredTracker`. A track that the filter drops has ended: no keyframe's point is found by it again,
@@ -83,6 +89,7 @@ class KltOdometry {
     back = from;
     const std::vector<std::uint8_t> found_back = follow(pyramid_, last_pyramid_, to, back);
     points = last_;
+    points.weights = {};  // of the last frame
     std::vector<std::uint8_t> keep(from.size());
     for (std::size_t i = 0; i < from.size(); ++i) {
       points.keypoints[i].pt = to[i];

@@ -103,7 +103,7 @@ class RgbdOdometry {
   /// Everything a keyframe needs, copied: the frame's views may die.
   Keyframe prepare(const stillpoint::FrameView& frame, const OrbFeatures& features) {
     Keyframe current;
-    current.features = {features.keypoints, features.descriptors.clone()};
+    current.features = {features.keypoints, features.descriptors.clone(), features.weights};
     cv::buildOpticalFlowPyramid(gray_of(frame), current.pyramid, window(), options.pyramid_levels, true,
                                 cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
     current.depth.assign(frame.depth.image);
@@ -133,7 +133,8 @@ class RgbdOdometry {
     const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(depth_there_m) / depth_there_m);
     sightings_.push_back({keyframe.world_from_camera * p_keyframe, camera_.undistort({here.x, here.y}),
                           options.pixel_sigma, depth_m, depth_sigma(depth_m),
-                          keyframe.world_from_camera.linear() * p_keyframe_sigma_m});
+                          keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
+                          current.features.weights[feature]});
     sources_.push_back({feature, &keyframe});
   }
 

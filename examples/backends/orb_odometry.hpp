@@ -58,7 +58,7 @@ class OrbOdometry {
   }
 
   std::optional<Pose> track(const stillpoint::FrameView& frame, const OrbFeatures& features) {
-    const OrbFeatures own{features.keypoints, features.descriptors.clone()};
+    const OrbFeatures own{features.keypoints, features.descriptors.clone(), features.weights};
     return pose.track(frame, own, [this](auto&&... arguments) { match(arguments...); });
   }
 

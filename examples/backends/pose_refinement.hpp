@@ -31,6 +31,7 @@ struct PointSighting {
   double depth_m = 0.0;      ///< along the optical axis, 0 where there is none
   double depth_sigma_m = 0.0;
   Vector3d p_sigma_m = Vector3d::Zero();  ///< one standard deviation of `p_world` along the ray it was measured on
+  double weight = 1.0;                    ///< what it may say: times its squared error
 };
 
 /// Finds the pose that explains the sightings best: least squares of pixel and depth errors, whitened by the
@@ -124,7 +125,8 @@ class PoseRefinement {
     double sum = 0.0;
     for (std::size_t i = 0; i < sightings.size(); ++i)
       if (inlier[i] != 0)
-        sum += 0.5 * (freedom + 3) * std::log1p(error(sightings, i, camera, camera_from_world).squaredNorm() / freedom);
+        sum += sightings[i].weight * 0.5 * (freedom + 3) *
+               std::log1p(error(sightings, i, camera, camera_from_world).squaredNorm() / freedom);
     return sum;
   }
 
@@ -142,7 +144,7 @@ class PoseRefinement {
         if (!(p.z() > kNearest_m)) continue;
         const Vector3d e = error(sightings, i, camera, camera_from_world);
         const Jacobian j = jacobian(sightings, i, camera, p);
-        const double weight = (freedom + 3) / (freedom + e.squaredNorm());
+        const double weight = sightings[i].weight * (freedom + 3) / (freedom + e.squaredNorm());
         hessian += weight * j.transpose() * j;
         gradient += weight * j.transpose() * e;
       }

@@ -50,6 +50,7 @@ class AnyTracker {
   struct AnyArrays {
     virtual ~AnyArrays() = default;
     virtual void compact(stillpoint::span<const std::uint8_t> keep) = 0;
+    virtual void weigh(stillpoint::span<const float> weights) = 0;
   };
 
   template <class Function>
@@ -68,6 +69,7 @@ class AnyTracker {
       stillpoint::compact(keep, keypoints);
       arrays->compact(keep);
     }
+    void weigh(stillpoint::span<const float> weights) { arrays->weigh(weights); }
   };
 
   template <class Backend>
@@ -96,6 +98,9 @@ class AnyTracker {
     struct Arrays : AnyArrays {
       explicit Arrays(BackendFeatures some) : features(std::move(some)) {}
       void compact(stillpoint::span<const std::uint8_t> keep) override { features.compact(keep); }
+      void weigh(stillpoint::span<const float> weights) override {
+        if constexpr (stillpoint::has_weigh<BackendFeatures>::value) features.weigh(weights);
+      }
       BackendFeatures features;
     };
 

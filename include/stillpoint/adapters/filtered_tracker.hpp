@@ -13,6 +13,7 @@
 // | Features | keypoints                                              | contiguous, with keypoint_traits              |
 // | Features | void compact(span<const std::uint8_t> keep)            | drops entry i of every array where keep[i]    |
 // |          |                                                        | is 0; core/compact.hpp does it                |
+// |          | void weigh(span<const float> weights)                  | optional: what each may say, before `compact` |
 // | Backend  | std::optional<Pose> track(const FrameView&,            | world_from_camera of that frame, or nothing:  |
 // |          |                           const Features&)             | the next frame is tried anew                  |
 // | Backend  | void feedback(const Pose& world_from_camera)           | optional: the pose it returned                |
@@ -28,11 +29,13 @@
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/keypoint.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/verdict/output_modes.hpp"
 
 namespace stillpoint {
 
@@ -49,6 +52,14 @@ template <class F> struct has_keypoints<F, std::enable_if_t<detail::has_keypoint
 template <class F, class = void> struct has_compact : std::false_type {};
 template <class F> struct has_compact<F, std::void_t<decltype(
     std::declval<F&>().compact(std::declval<span<const std::uint8_t>>()))>> : std::true_type {};
+
+template <class F, class = void> struct has_weigh : std::false_type {};
+template <class F> struct has_weigh<F, std::void_t<decltype(
+    std::declval<F&>().weigh(std::declval<span<const float>>()))>> : std::true_type {};
+
+template <class R, class = void> struct has_weights : std::false_type {};
+template <class R> struct has_weights<R, std::void_t<decltype(
+    weights(std::declval<const R&>(), std::declval<std::vector<float>&>()))>> : std::true_type {};
 
 template <class B, class Features, class = void> struct has_track : std::false_type {};
 template <class B, class Features> struct has_track<B, Features, std::enable_if_t<std::is_convertible_v<decltype(
@@ -137,6 +148,7 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
       Features features = backend.extract(frame);
       const auto& result = filter.filter_frame(frame, features.keypoints);
       observe(std::as_const(features.keypoints), result);
+      weigh(result, features);
       features.compact(result.keep());
       const std::optional<Pose> world_from_camera = backend.track(frame, features);
       if (world_from_camera) feed_back(*world_from_camera);
@@ -147,12 +159,22 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
   }
 
  private:
+  template <class Result>
+  void weigh(const Result& result, Features& features) {
+    if constexpr (has_weigh<Features>::value && has_weights<Result>::value) {
+      weights(result, weights_);
+      features.weigh(span<const float>(weights_));
+    }
+  }
+
   void feed_back(const Pose& world_from_camera) {
     if constexpr (has_feedback<Filter>::value) {
       if (tells_filter) filter.feedback(world_from_camera);
     }
     if constexpr (has_feedback<Backend>::value) backend.feedback(world_from_camera);
   }
+
+  std::vector<float> weights_;
 };
 
 }  // namespace stillpoint

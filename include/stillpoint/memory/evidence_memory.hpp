@@ -20,9 +20,9 @@ namespace stillpoint {
 
 /// Log-odds add up over frames and forget; they give the verdicts. Suspicion is sticky, inherited by new features whose
 /// neighbours on the same surface are suspect by majority, and only lowers the say in the ego-motion: what moved once
-/// and stands still now will drag the pose when it starts again. Surface cells hand it on too, where there is no corner:
-/// a sleeve that comes into view belongs to the man whose collar was seen moving. If suspicion drove verdicts, false
-/// alarms would spread from surface to surface.
+/// and stands still now will drag the pose when it starts again. Surface cells hand it on too, where there is no
+/// corner: a sleeve that comes into view belongs to the man whose collar was seen moving. If suspicion drove verdicts,
+/// false alarms would spread from surface to surface.
 class EvidenceMemory {
  public:
   struct Options {
@@ -33,6 +33,7 @@ class EvidenceMemory {
     float suspect_above = 1.0f;   ///< log-odds that make a feature suspect
     float suspicion_gain = 0.4f;  ///< what a frame adds: a flicker at a silhouette leaves no lasting suspicion
     float suspicion_persistence = 0.995f;
+    float restlessness = 0.6f;   ///< share of the lower bound that full suspicion takes away: it will move again
     float least_trust = 0.01f;   ///< say of a feature of full suspicion
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
     float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
@@ -72,8 +73,9 @@ class EvidenceMemory {
       const Memory before = recalled_[i];
       Label& label = labels[i];
       const float now = label.log_odds;
-      label.log_odds =
-          std::clamp(options.persistence * before.log_odds + now, -options.most_log_odds, options.most_log_odds);
+      const float least = -options.most_log_odds * (1.0f - options.restlessness * before.suspicion);
+      label.log_odds = std::clamp(options.persistence * before.log_odds + now, least, options.most_log_odds);
+      label.trust = matches.trust[i];
       decide(label, now, before.log_odds > options.drop_above);
       memory_[i].log_odds = label.log_odds;
       memory_[i].suspicion = before.suspicion;

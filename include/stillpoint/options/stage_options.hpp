@@ -217,6 +217,7 @@ template <class Visit>
 void each_option(EvidenceMemory& stage, Visit& visit) {
   visit("persistence", stage.options.persistence);
   visit("most_log_odds", stage.options.most_log_odds);
+  visit("restlessness", stage.options.restlessness);
   visit.any("drop_above", stage.options.drop_above);
   visit.any("keep_below", stage.options.keep_below);
   visit.any("suspect_above", stage.options.suspect_above);

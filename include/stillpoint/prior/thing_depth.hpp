@@ -23,8 +23,8 @@ struct ThingDepth {
   double slope_m = 0;   ///< from the top to the bottom
 
   /// The line through the depths of the box's middle third, which the thing fills for the most part: medians of rows,
-  /// and of all slopes between two of them (Theil, Proc. KNAW 53, 1950), so that a row that sees past the thing, between
-  /// a person's legs, does no harm while fewer than 29 % are such.
+  /// and of all slopes between two of them (Theil, Proc. KNAW 53, 1950), so that a row that sees past the thing,
+  /// between a person's legs, does no harm while fewer than 29 % are such.
   /// @return nothing where fewer than three rows have three depths
   static std::optional<ThingDepth> measure(const DepthView& depth, const DepthScale& to_depth, const Box& box) {
     constexpr std::size_t kColumns = 9, kRows = 18, kFewest = 3;

@@ -37,6 +37,12 @@ struct Features {
   std::vector<Vector2f> keypoints;
   std::vector<int> ids;
   Log log;
+  std::vector<float> weights = {};
+
+  void weigh(span<const float> some) {
+    if (log) log->push_back("weigh");
+    weights.assign(some.begin(), some.end());
+  }
 
   void compact(span<const std::uint8_t> keep) {
     if (log) log->push_back("compact");
@@ -79,6 +85,12 @@ struct MockResult {
   span<const std::uint8_t> keep() const { return flags; }
 };
 
+/// The weight of each is a quarter of its place.
+void weights(const MockResult& result, std::vector<float>& found) {
+  found.clear();
+  for (std::size_t i = 0; i < result.flags.size(); ++i) found.push_back(0.25f * static_cast<float>(i));
+}
+
 struct MockFilter {
   Log log;
   std::vector<std::uint8_t> flags{1, 0, 1, 0, 1};
@@ -115,9 +127,21 @@ FilteredTracker<MockFilter, MockBackend> mock_tracker() {
 TEST(FilteredTracker, CallsEachPartOnceInOrder) {
   auto tracker = mock_tracker();
   tracker.track(FrameView{});
-  const std::vector<std::string> expected{"extract", "filter_frame",    "compact",
+  const std::vector<std::string> expected{"extract", "filter_frame",    "weigh",           "compact",
                                           "track",   "filter.feedback", "backend.feedback"};
   EXPECT_EQ(*tracker.backend.log, expected);
+}
+
+TEST(FilteredTracker, WeighsAllFeaturesBeforeAnyIsDropped) {
+  auto tracker = mock_tracker();
+  tracker.track(FrameView{});
+  EXPECT_EQ(tracker.backend.tracked.weights, (std::vector<float>{0.0f, 0.25f, 0.5f, 0.75f, 1.0f}));
+}
+
+TEST(FilteredTracker, AFilterWithoutWeightsWeighsNothing) {
+  FilteredTracker<NullFilter, MockBackend> tracker(NullFilter{}, MockBackend{});
+  tracker.track(FrameView{});
+  EXPECT_TRUE(tracker.backend.tracked.weights.empty());
 }
 
 TEST(FilteredTracker, TracksOnlyWhatIsKeptAndKeepsArraysAligned) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <vector>
 
 #include "backends/klt_odometry.hpp"
 #include "stillpoint/adapters/filtered_tracker.hpp"
@@ -15,7 +16,7 @@
 
 namespace {
 
-TEST(Documents, TheThreeLinesOfTrackersAreTheLoopOfFilteredTracker) {
+TEST(Documents, TheLinesOfTrackersAreTheLoopOfFilteredTracker) {
   stillpoint::SyntheticSequence sequence(stillpoint::synthetic::static_room());
   stillpoint::SyntheticFrame rendered;
   const stillpoint::Camera camera = sequence.camera();
@@ -23,6 +24,7 @@ TEST(Documents, TheThreeLinesOfTrackersAreTheLoopOfFilteredTracker) {
   examples::KltOdometry odometry(camera);
   stillpoint::FilteredTracker tracker{stillpoint::FrameFilter<>(camera), examples::KltOdometry(camera)};
   tracker.tells_filter = false;
+  std::vector<float> weights;
   for (int i = 0; i < 3; ++i) {
     sequence.render(i, rendered);
     const stillpoint::FrameView frame(rendered.gray.view(),
@@ -30,7 +32,10 @@ TEST(Documents, TheThreeLinesOfTrackersAreTheLoopOfFilteredTracker) {
                                       rendered.timestamp_s);
     // clang-format off
     auto features = odometry.extract(frame);
-    features.compact(filter.filter_frame(frame, features.keypoints).keep());
+    const stillpoint::FrameResult& result = filter.filter_frame(frame, features.keypoints);
+    stillpoint::weights(result, weights);
+    features.weigh(weights);
+    features.compact(result.keep());
     const std::optional<stillpoint::Pose> world_from_camera = odometry.track(frame, features);
     // clang-format on
     const std::optional<stillpoint::Pose> same = tracker.track(frame);

@@ -33,6 +33,7 @@ class EvidenceMemoryTest : public testing::Test {
     memory_.options.suspect_above = 1.0f;
     memory_.options.suspicion_gain = 1.0f;
     memory_.options.suspicion_persistence = 0.9f;
+    memory_.options.restlessness = 0.0f;
     memory_.options.least_trust = 0.1f;
     memory_.options.feature_px = 15.0f;
     memory_.options.neighbour_px = 25.0f;
@@ -181,6 +182,18 @@ TEST_F(EvidenceMemoryTest, WhatMovedOnceHasLittleSayForLong) {
   frame(-6.0f);
   EXPECT_TRUE(labels_[0].keep) << "suspicion drives no verdict";
   EXPECT_LT(matches_.trust[0], 0.3f);
+}
+
+// It moved, which makes it suspect in full; then it stands for long, and its log-odds are held at −6 · (1 − ½ · 0.9)
+// instead of −6, so that it is found sooner when it starts again. What never moved keeps the whole bound.
+TEST_F(EvidenceMemoryTest, WhatMovedOnceIsFoundSoonerWhenItStartsAgain) {
+  memory_.options.restlessness = 0.5f;
+  for (const float now : {5.0f, -6.0f, -6.0f, -6.0f}) frame({{Vector2f(50, 50)}, {Vector2f(200, 50)}}, {now, -6.0f});
+  EXPECT_NEAR(labels_[0].log_odds, -6.0f * (1.0f - 0.5f * 0.9f), kRounding);
+  EXPECT_NEAR(labels_[1].log_odds, -6.0f, kRounding);
+  EXPECT_LT(labels_[0].trust, 0.3f);
+  EXPECT_EQ(labels_[0].trust, matches_.trust[0]);
+  EXPECT_EQ(labels_[1].trust, 1.0f);
 }
 
 /// Ten old features round (50, 50) on one surface, all at the same distance, of which `suspects` moved.

@@ -52,8 +52,7 @@ TEST_F(ForegroundPriorTest, TheMiddleOfABoxIsTheThing) {
 // legs, in the lowest fifth, and is not asked.
 TEST_F(ForegroundPriorTest, APersonWhoIsLookedDownOnLeans) {
   prior_.reach_m = 0.1;
-  for (int v = 20; v < 100; ++v)
-    depth_(cv::Rect(65, v, 30, 1)).setTo(1.3f + 0.005f * (static_cast<float>(v) - 20.0f));
+  for (int v = 20; v < 100; ++v) depth_(cv::Rect(65, v, 30, 1)).setTo(1.3f + 0.005f * (static_cast<float>(v) - 20.0f));
   depth_(cv::Rect(68, 84, 24, 16)).setTo(3.0f);
   const Detection person = only(depth_);
   EXPECT_NEAR(person.depth_slope_m, 0.4, 0.01);

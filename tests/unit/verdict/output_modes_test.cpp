@@ -68,6 +68,17 @@ TEST_F(OutputModes, WithoutAProbabilityWhatIsKeptWeighsOneAndWhatIsDroppedNothin
   EXPECT_EQ(found, (std::vector<float>{1.0f, 0.0f}));
 }
 
+// 0.75 · 0.5 of a feature that is half trusted; what is not trusted at all counts a quarter, and nothing where it
+// moves.
+TEST_F(OutputModes, WhatMovedOnceWeighsLess) {
+  std::vector<Label> labels = {label(true, 0.25f), label(true, 0.25f), label(true, kNaN), label(false, kNaN)};
+  labels[0].trust = 0.5f;
+  for (std::size_t i = 1; i < labels.size(); ++i) labels[i].trust = 0.01f;
+  std::vector<float> found;
+  weights(judge({{0, 0}, {1, 1}, {2, 2}, {3, 3}}, labels), found);
+  EXPECT_EQ(found, (std::vector<float>{0.375f, 0.75f * 0.35f, 0.35f, 0.0f}));
+}
+
 TEST_F(OutputModes, AFrameThatWasNotJudgedWeighsOneEverywhere) {
   std::vector<float> found(7, 0.5f);
   weights(filter.filter_frame(FrameView(gray, DepthView(), 1.0), std::vector<Vector2f>{{0, 0}, {1, 1}}), found);
