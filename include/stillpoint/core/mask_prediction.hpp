@@ -47,6 +47,9 @@ class MaskPrediction {
     const Workspace::Scope scope(workspace);
     const auto reach_px = static_cast<float>(options.reach_px);
     const PixelGrid around(matches.current.pixel, reach_px, workspace, [](std::size_t) { return true; });
+    const PixelGrid followed(matches.current.pixel, 2 * reach_px, workspace, [&](std::size_t j) {
+      return labels[j].verdict == Verdict::dynamic && matches.matched(j);
+    });
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f pixel = matches.current.pixel[i];
       if (labels[i].verdict != Verdict::dynamic || !pixel.allFinite()) continue;
@@ -57,7 +60,7 @@ class MaskPrediction {
         ++all;
         moving += labels[j].verdict == Verdict::dynamic;
       });
-      const Vector2f velocity_px = step_px(matches, labels, i, around) / static_cast<float>(interval_s);
+      const Vector2f velocity_px = step_px(matches, i, followed) / static_cast<float>(interval_s);
       moving_.push_back({pixel, velocity_px, depth_m, 2 * moving > all});
     }
   }
@@ -97,13 +100,12 @@ class MaskPrediction {
   }
 
   /// How far feature `i` went since the reference frame: by its own match, else with the moving ones around it.
-  Vector2f step_px(const Matches& matches, span<const Label> labels, std::size_t i, const PixelGrid& around) const {
+  Vector2f step_px(const Matches& matches, std::size_t i, const PixelGrid& followed) const {
     if (matches.matched(i)) return matches.current.pixel[i] - matches.reference.pixel[i];
     const auto reach_px = static_cast<float>(2 * options.reach_px);
     Vector2f sum = Vector2f::Zero();
     float weight = 0;
-    around.within(matches.current.pixel[i], reach_px, [&](std::size_t j, float squared) {
-      if (labels[j].verdict != Verdict::dynamic || !matches.matched(j)) return;
+    followed.within(matches.current.pixel[i], reach_px, [&](std::size_t j, float squared) {
       const float near = 1 - squared / (reach_px * reach_px);
       weight += near;
       sum += near * (matches.current.pixel[j] - matches.reference.pixel[j]);

@@ -49,7 +49,8 @@ class EvidenceMemory {
     recalled_of_cell_.assign(matches.sightings.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
-    const PixelGrid grid(pixel_, options.neighbour_px, workspace, [](std::size_t) { return true; });
+    // Cells of half the reach: fewer points are visited that lie beyond it.
+    const PixelGrid grid(pixel_, 0.5f * options.neighbour_px, workspace, [](std::size_t) { return true; });
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : matches.current.pixel[i];
       recalled_[i] = look_up(grid, pixel, matches.current.depth_m[i]);

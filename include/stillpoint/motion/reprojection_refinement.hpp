@@ -44,6 +44,7 @@ namespace detail {
 
 inline constexpr double kNearestDepth_m = 0.05;  // nearer, or behind the lens: no constraint
 inline constexpr double kNegligible = 1e-3;      // of a variance: what adds less changes a residual by 0.05 %
+inline constexpr double kNegligibleStep = 1e-4;  // squared, in standard deviations of the motion
 inline constexpr double kDepthErrorLimit = 9.0;  // squared sigmas; a wrong depth must not veto a right pixel
 
 /// The whitened error of a point: pixel noise all round, and the depth's along the epipolar direction. A point without
@@ -124,7 +125,9 @@ template <class Camera>
 Matrix6d refine_reprojection(span<const PointConstraint> points, span<const PlaneConstraint> planes, span<Pose> poses,
                              span<const double> cutoffs, const Camera& camera) {
   Matrix6d information = Matrix6d::Zero();
+  double settled_at = 0;
   for (const double cutoff : cutoffs) {
+    if (!(cutoff < settled_at || settled_at <= 0)) continue;  // once more would change nothing
     Matrix6d normal = Matrix6d::Zero();
     Vector6d gradient = Vector6d::Zero();
     for (const PointConstraint& constraint : points) {
@@ -165,6 +168,7 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
     const Pose back = step.inverse();
     for (Pose& pose : poses) pose = orthonormalized(pose * back);
     information = normal;
+    settled_at = x.dot(normal * x) < detail::kNegligibleStep ? cutoff : 0;
   }
   return information;
 }

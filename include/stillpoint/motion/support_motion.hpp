@@ -64,7 +64,7 @@ class SupportMotion {
 
     auto problem = problem_of(points, matches, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
-    Hypothesis past = polish(expected, problem, kFarCutoffs);
+    Hypothesis past = polish(expected, problem, kRoughCutoffs);
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
     motion.pixel_sigma = noise.pixel_sigma;
     motion.depth_noise = noise.depth_scale;
@@ -121,6 +121,7 @@ class SupportMotion {
 
  private:
   static constexpr std::array<double, 6> kFarCutoffs{12.0, 8.0, 6.0, 4.0, 4.0, 4.0};
+  static constexpr std::array<double, 3> kRoughCutoffs{12.0, 6.0, 4.0};  // near enough to measure the noise
   static constexpr std::array<double, 3> kNearCutoffs{4.0, 3.0, 3.0};
 
   struct Hypothesis {
