@@ -133,8 +133,7 @@ class RgbdOdometry {
     const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(depth_there_m) / depth_there_m);
     sightings_.push_back({keyframe.world_from_camera * p_keyframe, camera_.undistort({here.x, here.y}),
                           options.pixel_sigma, depth_m, depth_sigma(depth_m),
-                          keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
-                          current.features.weights[feature]});
+                          keyframe.world_from_camera.linear() * p_keyframe_sigma_m, current.features.weights[feature]});
     sources_.push_back({feature, &keyframe});
   }
 
