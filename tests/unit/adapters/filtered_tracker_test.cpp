@@ -47,6 +47,7 @@ struct Features {
   void compact(span<const std::uint8_t> keep) {
     if (log) log->push_back("compact");
     stillpoint::compact(keep, keypoints, ids);
+    if (!weights.empty()) stillpoint::compact(keep, weights);
   }
 };
 
@@ -132,10 +133,10 @@ TEST(FilteredTracker, CallsEachPartOnceInOrder) {
   EXPECT_EQ(*tracker.backend.log, expected);
 }
 
-TEST(FilteredTracker, WeighsAllFeaturesBeforeAnyIsDropped) {
+TEST(FilteredTracker, WeightsGoWithTheirFeatures) {
   auto tracker = mock_tracker();
   tracker.track(FrameView{});
-  EXPECT_EQ(tracker.backend.tracked.weights, (std::vector<float>{0.0f, 0.25f, 0.5f, 0.75f, 1.0f}));
+  EXPECT_EQ(tracker.backend.tracked.weights, (std::vector<float>{0.0f, 0.5f, 1.0f}));
 }
 
 TEST(FilteredTracker, AFilterWithoutWeightsWeighsNothing) {

@@ -88,6 +88,7 @@ TEST(PoseRefinement, WeightsSayHowMuchASightingPulls) {
       sightings.back().weight = weight;
     }
     Pose pose = truth;
+    pose.translation().x() += 0.01;
     std::vector<std::uint8_t> inlier;
     PoseRefinement{}(sightings, camera(), pose, inlier);
     EXPECT_NEAR(error_m(pose, truth), 0.004 * 90 * weight / (30 + 90 * weight), 0.0003) << weight;
