@@ -31,7 +31,6 @@ namespace examples {
 struct TrackedPoints {
   std::vector<cv::KeyPoint> keypoints;
   std::vector<std::uint64_t> ids;  ///< ascending; one that is gone never comes back
-
   FeatureWeights weights;
 
   void compact(span<const std::uint8_t> keep) {

@@ -81,8 +81,7 @@ struct Label {
   std::int32_t cluster = kNoCluster;
   float log_odds = 0;  ///< of this frame alone, then of all frames: that it moves; natural logarithm
   float probability = std::numeric_limits<float>::quiet_NaN();  ///< that it moves, 0 to 1; NaN where nobody says
-  float trust =
-      1.0f;  ///< 0 to 1: what it may say of the camera's motion as long as it stands; less for what moved once
+  float trust = 1.0f;  ///< 0 to 1: its say in the camera's motion while it stands; less for what moved once
 };
 
 }  // namespace stillpoint
