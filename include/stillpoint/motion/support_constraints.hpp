@@ -44,7 +44,7 @@ struct SupportConstraints {
     return points.first(count);
   }
 
-  /// The support corners' sightings in all older frames, and the matches of those without a depth.
+  /// The support corners' sightings in all older frames, frame by frame, and the matches of those without a depth.
   template <class Camera>
   span<PointConstraint> from_sightings(const Matches& matches, const Regions& regions, const Camera& camera,
                                        Workspace& workspace) const {
@@ -53,16 +53,17 @@ struct SupportConstraints {
     const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
     const double typical_m = typical_depth_m(matches, workspace);
     std::size_t count = 0;
-    for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
-      for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (std::size_t i = matches.host_count; i < matches.size(); ++i)
+      if (matches.matched(i) && !matches.current.has_depth(i))
+        points[count++] = from_match(matches, regions, i, typical_m, camera);
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
         const Sighting& sighting = frames[f].of_feature[i];
         if (sighting.state != SightingState::seen || !(sighting.dissimilarity < most_dissimilar)) continue;
         points[count++] =
             at_depth(matches, regions, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),
                      static_cast<double>(sighting.depth_sigma_m), f);
       }
-      if (matches.matched(i) && !matches.current.has_depth(i))
-        points[count++] = from_match(matches, regions, i, typical_m, camera);
     }
     return points.first(count);
   }
@@ -80,10 +81,10 @@ struct SupportConstraints {
         PlaneConstraint& plane = planes[count++];
         plane.point = cell.point;
         plane.target = sighting.target;
-        plane.normal = frames[f].reference_from_current.linear() * cell.normal;
         // Depth noise points along the optical axis: the plane sees its share along the normal.
-        plane.sigma_m =
+        const double sigma_m =
             depth_sigma_m(cell.depth_sigma_m, sighting.depth_sigma_m) * std::abs(cell.normal.z()) + depth_floor_m;
+        plane.slope = frames[f].reference_from_current.linear() * cell.normal / sigma_m;
         plane.trusted_weight = surface_weight;
         plane.weight = surface_weight * static_cast<double>(cell.trust);
         plane.frame = f;

@@ -120,7 +120,7 @@ class SupportMotion {
   }
 
  private:
-  static constexpr std::array<double, 6> kFarCutoffs{12.0, 8.0, 6.0, 4.0, 4.0, 4.0};
+  static constexpr std::array<double, 4> kFarCutoffs{12.0, 6.0, 4.0, 4.0};
   static constexpr std::array<double, 3> kRoughCutoffs{12.0, 6.0, 4.0};  // near enough to measure the noise
   static constexpr std::array<double, 3> kNearCutoffs{4.0, 3.0, 3.0};
 

@@ -64,10 +64,10 @@ class SupportProblem {
     spread(pose);
     for (const PointConstraint& point : points_) {
       if (!(point.weight > kTrusted) || !(point.depth_m > 0)) continue;
-      const detail::WhitenedPoint whitened(point, poses_[point.frame], camera_);
-      if (!std::isfinite(whitened.squared)) continue;
-      squared_px[count] = whitened.error.squaredNorm() * point.pixel_sigma * point.pixel_sigma;
-      squared_depth[count++] = whitened.depth_error * whitened.depth_error;
+      const detail::PointResidual residual(point, poses_[point.frame], camera_);
+      if (!std::isfinite(residual.squared)) continue;
+      squared_px[count] = residual.squared_px * point.pixel_sigma * point.pixel_sigma;
+      squared_depth[count++] = residual.depth_error * residual.depth_error;
     }
     constexpr double kMedianOfTwo = 1.386, kMedianOfOne = 0.455;  // of χ² with so many degrees of freedom
     SupportNoise noise = {most.pixel_sigma, least.depth_scale};
@@ -82,7 +82,7 @@ class SupportProblem {
       point.inverse_depth_sigma *= noise.depth_scale;
       point.depth_sigma_m *= noise.depth_scale;
     }
-    for (PlaneConstraint& plane : planes_) plane.sigma_m *= noise.depth_scale;
+    for (PlaneConstraint& plane : planes_) plane.slope /= noise.depth_scale;
     return noise;
   }
 
@@ -108,7 +108,7 @@ class SupportProblem {
   double support(const Pose& pose) const {
     double sum = point_support(pose);
     for (const PlaneConstraint& plane : planes_) {
-      const double error = plane.normal.dot(poses_[plane.frame] * plane.point - plane.target) / plane.sigma_m;
+      const double error = plane.slope.dot(poses_[plane.frame] * plane.point - plane.target);
       sum += plane.weight * share(error * error);
     }
     return sum;

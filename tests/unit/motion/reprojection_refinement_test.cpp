@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
@@ -49,28 +50,28 @@ PlaneConstraint exact_plane(const Vector3d& point, const Pose& reference_from_cu
                             std::size_t frame = 0) {
   PlaneConstraint plane;
   plane.point = point;
-  plane.normal = random_vector(random, 1.0).normalized();
-  const Vector3d along = plane.normal.cross(random_vector(random, 1.0));  // any other point of the plane
+  const Vector3d normal = random_vector(random, 1.0).normalized();
+  const Vector3d along = normal.cross(random_vector(random, 1.0));  // any other point of the plane
   plane.target = reference_from_current * point + 0.1 * along;
-  plane.sigma_m = 0.01;
+  plane.slope = normal / 0.01;
   plane.frame = frame;
   return plane;
 }
 
-/// What is left of the error when the current camera moves on by x: all rows of a point at W for zero error.
-template <class Rows>
-Matrix6d numeric_information(const Rows& rows) {
+/// What x does to three errors when the current camera moves on by it, from central differences: JᵀWJ.
+template <class Errors>
+Matrix6d numeric_information(const Errors& errors, const Matrix3d& weight = Matrix3d::Identity()) {
   constexpr double kStep = 1e-6;
   Eigen::Matrix<double, 3, 6> jacobian;
   for (int k = 0; k < 6; ++k) {
     Vector6d x = Vector6d::Zero();
     x[k] = kStep;
-    jacobian.col(k) = (rows(x) - rows(-x)) / (2 * kStep);
+    jacobian.col(k) = (errors(x) - errors(-x)) / (2 * kStep);
   }
-  return jacobian.transpose() * jacobian;
+  return jacobian.transpose() * weight * jacobian;
 }
 
-// At zero error the whitening's own change does not matter, so that the information of one constraint is JᵀJ.
+// At zero error the change of the pixel's information does not matter.
 TEST(ReprojectionRefinement, PointJacobiansAreThoseOfCentralDifferences) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Random random(seed);
@@ -78,10 +79,15 @@ TEST(ReprojectionRefinement, PointJacobiansAreThoseOfCentralDifferences) {
     PointConstraint constraint = exact_point(random_point(random), pose);
     constraint.inverse_depth_sigma = seed % 3 == 0 ? 0.0 : random.uniform(0.001, 0.3);
     if (seed % 2 == 0) constraint.depth_m = 0;
-    const Matrix6d expected = numeric_information([&](const Vector6d& x) -> Vector3d {
-      const detail::WhitenedPoint point(constraint, pose * exp_of(x).inverse(), test_camera());
-      return {point.error.x(), point.error.y(), point.depth_error};
-    });
+    const detail::PointResidual here(constraint, pose, test_camera());
+    Matrix3d weight = Matrix3d::Identity();
+    weight.topLeftCorner<2, 2>() << here.xx, here.xy, here.xy, here.yy;
+    const Matrix6d expected = numeric_information(
+        [&](const Vector6d& x) -> Vector3d {
+          const detail::PointResidual moved(constraint, pose * exp_of(x).inverse(), test_camera());
+          return {moved.off_px.x(), moved.off_px.y(), moved.depth_error};
+        },
+        weight);
     const Pose before = pose;
     const Matrix6d information = refine_reprojection(span<const PointConstraint>(&constraint, 1), {},
                                                      span<Pose>(&pose, 1), span(kWide).first(1), test_camera());
@@ -97,7 +103,7 @@ TEST(ReprojectionRefinement, PlaneJacobiansAreThoseOfCentralDifferences) {
     const PlaneConstraint plane = exact_plane(random_point(random), pose, random);
     const Matrix6d expected = numeric_information([&](const Vector6d& x) -> Vector3d {
       const Pose moved = pose * exp_of(x).inverse();
-      return {plane.normal.dot(moved * plane.point - plane.target) / plane.sigma_m, 0, 0};
+      return {plane.slope.dot(moved * plane.point - plane.target), 0, 0};
     });
     const Matrix6d information = refine_reprojection({}, span<const PlaneConstraint>(&plane, 1), span<Pose>(&pose, 1),
                                                      span(kWide).first(1), test_camera());
@@ -119,9 +125,9 @@ struct Problem {
       poses[f] = truth[f] * exp_of(x);
     }
     for (std::size_t i = 0; i < point_count; ++i)
-      points.push_back(exact_point(random_point(random), truth[i % 2], i % 2));
+      points.push_back(exact_point(random_point(random), truth[2 * i / point_count], 2 * i / point_count));
     for (std::size_t i = 0; i < plane_count; ++i)
-      planes.push_back(exact_plane(random_point(random), truth[i % 2], random, i % 2));
+      planes.push_back(exact_plane(random_point(random), truth[2 * i / plane_count], random, 2 * i / plane_count));
   }
 
   Matrix6d refine(span<const double> cutoffs) {
@@ -171,7 +177,7 @@ TEST(ReprojectionRefinement, AThirdOfOutliersChangesNothing) {
       problem.points[i].pixel += random.uniform(30, 100) * Vector2d(std::cos(angle), std::sin(angle));
     }
     for (std::size_t i = 0; i < problem.planes.size(); i += 3)
-      problem.planes[i].target += problem.planes[i].normal * random.uniform(0.3, 1.0);
+      problem.planes[i].target += problem.planes[i].slope.normalized() * random.uniform(0.3, 1.0);
     problem.refine(kAnneal);
     EXPECT_LT(problem.error(), 1e-6) << "seed " << seed;
   }
@@ -182,7 +188,7 @@ TEST(ReprojectionRefinement, AWrongDepthDoesNotVetoARightPixel) {
   Random random(3);
   Problem problem(random, 30, 0, 0.002);
   for (std::size_t i = 0; i < problem.points.size(); i += 2) problem.points[i].depth_m *= 0.5;
-  const detail::WhitenedPoint point(problem.points[0], problem.truth[0], test_camera());
+  const detail::PointResidual point(problem.points[0], problem.truth[0], test_camera());
   EXPECT_FALSE(point.depth_counts);
   EXPECT_NEAR(point.squared, 9.0, 1e-9);
   problem.refine(kWide);
@@ -206,7 +212,8 @@ TEST(ReprojectionRefinement, InformationIsTheInverseCovarianceOfTheErrors) {
       point.inverse_depth_sigma = 0.02;
       point.point /= 1.0 + point.point.z() * point.inverse_depth_sigma * random.gaussian();
     }
-    for (PlaneConstraint& plane : problem.planes) plane.target += plane.normal * plane.sigma_m * random.gaussian();
+    for (PlaneConstraint& plane : problem.planes)
+      plane.target += plane.slope / plane.slope.squaredNorm() * random.gaussian();
     const Matrix6d information = problem.refine(kWide);
     // pose = truth · Exp(x)⁻¹
     const Pose step = problem.poses[0].inverse() * problem.truth[0];
@@ -219,17 +226,28 @@ TEST(ReprojectionRefinement, InformationIsTheInverseCovarianceOfTheErrors) {
   EXPECT_LT(sum / kSeeds, 7.0);
 }
 
-// Written without derivatives it is the same; `WhitenedPoint` leaves out a spread below 0.001 of the pixel's variance.
-TEST(ReprojectionRefinement, TheSquaredResidualIsThatOfTheWhitenedPoint) {
+// offᵀ (σ² I + a aᵀ)⁻¹ off, with a from central differences: how far the pixel goes by a sigma of inverse depth.
+TEST(ReprojectionRefinement, ThePixelsCovarianceHasTheDepthsNoiseAlongTheEpipolarLine) {
   Random random(5);
+  const auto camera = test_camera();
   for (int trial = 0; trial < 1000; ++trial) {
     const Pose pose = random_pose(random, 0.1, 0.2);
     PointConstraint point = exact_point(random_point(random), pose);
-    point.pixel += Vector2d(random.uniform(-5, 5), random.uniform(-5, 5));
+    const Vector2d off(random.uniform(-5, 5), random.uniform(-5, 5));
+    point.pixel -= off;
     point.inverse_depth_sigma = trial % 3 == 0 ? 0.0 : random.uniform(0.0, 0.3);
-    point.depth_m = trial % 2 == 0 ? 0.0 : point.depth_m + random.uniform(-0.05, 0.05);
-    const double expected = detail::WhitenedPoint(point, pose, test_camera()).squared;
-    ASSERT_NEAR(squared_residual(point, pose, test_camera()), expected, 0.001 * expected + 1e-9);
+    const double wrong_m = trial % 2 == 0 ? 0.0 : random.uniform(-0.05, 0.05);
+    point.depth_m = trial % 2 == 0 ? 0.0 : point.depth_m - wrong_m;
+    const auto pixel_at = [&](double more) -> Vector2d {
+      return camera.project(pose * Vector3d(point.point / (1.0 + more * point.point.z())));
+    };
+    constexpr double kStep = 1e-6;
+    const Vector2d spread = point.inverse_depth_sigma * (pixel_at(kStep) - pixel_at(-kStep)) / (2 * kStep);
+    const Eigen::Matrix2d covariance =
+        point.pixel_sigma * point.pixel_sigma * Eigen::Matrix2d::Identity() + spread * spread.transpose();
+    const double depth_error = wrong_m / point.depth_sigma_m;
+    const double expected = off.dot(covariance.inverse() * off) + std::min(depth_error * depth_error, 9.0);
+    ASSERT_NEAR(squared_residual(point, pose, camera), expected, 1e-6 * expected) << "trial " << trial;
   }
   PointConstraint behind = exact_point({0, 0, 2}, Pose::Identity());
   behind.point.z() = -2;
@@ -262,13 +280,13 @@ TEST(ReprojectionRefinement, APointBehindTheCameraOrNotFiniteSaysNothing) {
   Problem problem(random, 20, 0, 0.01);
   PointConstraint bad = problem.points[0];
   bad.point.z() = -1;
-  problem.points.push_back(bad);
+  problem.points.insert(problem.points.begin(), bad);
   bad = problem.points[1];
   bad.pixel.x() = std::numeric_limits<double>::quiet_NaN();
-  problem.points.push_back(bad);
+  problem.points.insert(problem.points.begin(), bad);
   bad = problem.points[2];
   bad.point.setConstant(std::numeric_limits<double>::quiet_NaN());
-  problem.points.push_back(bad);
+  problem.points.insert(problem.points.begin(), bad);
   problem.refine(kWide);
   EXPECT_LT(problem.error(), 1e-8);
 }
@@ -289,11 +307,12 @@ TEST(ReprojectionRefinement, WithoutConstraintsNothingMoves) {
 
 // (1 − s / c²)²: at half the squared cutoff a quarter; nothing at the cutoff, beyond, and for NaN.
 TEST(ReprojectionRefinement, TukeysWeightFallsToNothingAtTheCutoff) {
-  EXPECT_EQ(detail::tukey(0.0, 4.0), 1.0);
-  EXPECT_EQ(detail::tukey(8.0, 4.0), 0.25);
-  EXPECT_EQ(detail::tukey(16.0, 4.0), 0.0);
-  EXPECT_EQ(detail::tukey(1e9, 4.0), 0.0);
-  EXPECT_EQ(detail::tukey(std::numeric_limits<double>::quiet_NaN(), 4.0), 0.0);
+  const detail::Tukey tukey(4.0);
+  EXPECT_EQ(tukey(0.0), 1.0);
+  EXPECT_EQ(tukey(8.0), 0.25);
+  EXPECT_EQ(tukey(16.0), 0.0);
+  EXPECT_EQ(tukey(1e9), 0.0);
+  EXPECT_EQ(tukey(std::numeric_limits<double>::quiet_NaN()), 0.0);
 }
 
 }  // namespace
