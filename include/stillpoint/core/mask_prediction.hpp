@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -29,10 +30,9 @@ namespace stillpoint {
 class MaskPrediction {
  public:
   struct Options {
-    int reach_px = 24;                     ///< a feature speaks for its surface so far around: a support corner's cell
-    double surface_m = 0.06;               ///< depths that differ less are one surface …
-    double surface_per_square_m = 0.0076;  ///< … and this much more per square metre of depth
-    double longest_gap_s = 1.0;            ///< farther ahead nothing is predicted
+    int reach_px = 24;  ///< a feature speaks for its surface so far around: a support corner's cell
+    DepthTolerance same_surface = {0.06, 0.0076};
+    double longest_gap_s = 1.0;  ///< farther ahead nothing is predicted
   };
   Options options;
 
@@ -94,9 +94,8 @@ class MaskPrediction {
   static constexpr int kCell_px = 4;
 
   bool one_surface(float depth_m, float other_m) const noexcept {
-    const double squared = static_cast<double>(depth_m) * depth_m;
-    return depth_m > 0 && std::abs(static_cast<double>(other_m - depth_m)) <=
-                              options.surface_m + options.surface_per_square_m * squared;
+    const double apart_m = std::abs(static_cast<double>(other_m - depth_m));
+    return depth_m > 0 && apart_m <= options.same_surface.at(static_cast<double>(depth_m));
   }
 
   /// How far feature `i` went since the reference frame: by its own match, else with the moving ones around it.

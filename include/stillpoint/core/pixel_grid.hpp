@@ -40,17 +40,29 @@ class PixelGrid {
   /// Calls `visit(index, squared_distance_px)` for every point within `radius_px`, cell by cell, in a fixed order.
   template <class Visit>
   void within(const Vector2f& pixel, float radius_px, const Visit& visit) const {
-    if (!pixel.allFinite() || !(pixel.cwiseAbs().maxCoeff() < 2 * kLargest_px)) return;
-    const std::size_t u0 = clamped(pixel.x() - radius_px, columns_), u1 = clamped(pixel.x() + radius_px, columns_);
-    const std::size_t v0 = clamped(pixel.y() - radius_px, rows_), v1 = clamped(pixel.y() + radius_px, rows_);
-    for (std::size_t v = v0; v <= v1; ++v) {
-      const std::uint32_t first = begin_[v * columns_ + u0], last = begin_[v * columns_ + u1 + 1];
-      for (std::uint32_t k = first; k < last; ++k) {
+    runs_around(pixel, radius_px, [&](std::size_t first, std::size_t last) {
+      for (std::size_t k = first; k < last; ++k) {
         const float squared = (entry_[k].pixel - pixel).squaredNorm();
         if (squared <= radius_px * radius_px) visit(std::size_t{entry_[k].index}, squared);
       }
-    }
+    });
   }
+
+  /// Points have a rank in the order of the cells. `visit(first, last)` is called for every run of ranks in the cells
+  /// that the circle touches: all within it and some beyond, for loops that weigh instead of asking.
+  template <class Visit>
+  void runs_around(const Vector2f& pixel, float radius_px, const Visit& visit) const {
+    if (!pixel.allFinite() || !(pixel.cwiseAbs().maxCoeff() < 2 * kLargest_px)) return;
+    const std::size_t u0 = clamped(pixel.x() - radius_px, columns_), u1 = clamped(pixel.x() + radius_px, columns_);
+    const std::size_t v0 = clamped(pixel.y() - radius_px, rows_), v1 = clamped(pixel.y() + radius_px, rows_);
+    for (std::size_t v = v0; v <= v1; ++v)
+      visit(std::size_t{begin_[v * columns_ + u0]}, std::size_t{begin_[v * columns_ + u1 + 1]});
+  }
+
+  /// How many points take part.
+  std::size_t size() const noexcept { return begin_[columns_ * rows_]; }
+  /// The index of the point of a rank.
+  std::size_t index(std::size_t rank) const noexcept { return entry_[rank].index; }
 
  private:
   struct Entry {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
@@ -49,14 +50,6 @@ struct PatchFit {
   Vector2f offset = Vector2f::Zero();  ///< from where the search began, pixels
   float dissimilarity = 2.0f;  ///< 1 − zero-mean normalised cross-correlation: 0 alike, 1 unrelated, 2 inverted
   bool inside = false;         ///< false: the patch left the image
-};
-
-/// How much depth may differ on one surface: a constant and a part that grows as depth noise does.
-struct DepthTolerance {
-  double constant_m = 0.05;
-  double per_square_m = 0.0076;  ///< metres per square metre of depth: four Kinect sigmas
-
-  double at(double depth_m) const noexcept { return constant_m + per_square_m * depth_m * depth_m; }
 };
 
 /// Which pixels of a patch lie on the surface of its centre. Pixels without a depth are taken to.

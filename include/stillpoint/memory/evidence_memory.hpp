@@ -9,12 +9,13 @@
 #include <cstddef>
 #include <vector>
 
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
-#include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/memory/remembered_points.hpp"
 
 namespace stillpoint {
 
@@ -38,8 +39,7 @@ class EvidenceMemory {
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
     float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
     float minority = 0.25f;      ///< share of suspect neighbours below which none is handed on; above 1 − this, all
-    double surface_m = 0.06;     ///< depths that differ less are one surface …
-    double surface_per_square_m = 0.0076;  ///< … and this much more per square metre of depth
+    DepthTolerance same_surface = {0.06, 0.0076};
   };
   Options options;
 
@@ -49,27 +49,25 @@ class EvidenceMemory {
     recalled_of_cell_.assign(matches.sightings.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
-    // Cells of half the reach: fewer points are visited that lie beyond it.
-    const PixelGrid grid(pixel_, 0.5f * options.neighbour_px, workspace, [](std::size_t) { return true; });
+    const RememberedPoints points(pixel_, remembered_, {options.neighbour_px, options.feature_px, options.same_surface},
+                                  workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : matches.current.pixel[i];
-      recalled_[i] = look_up(grid, pixel, matches.current.depth_m[i]);
+      recalled_[i] = look_up(points, pixel, matches.current.depth_m[i]);
       matches.trust[i] = trust(recalled_[i].suspicion);
       matches.recalled_log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       SurfaceCell& cell = matches.sightings.surfaces[s];
-      recalled_of_cell_[s] = look_up(grid, cell.pixel, cell.point.z());
+      recalled_of_cell_[s] = look_up(points, cell.pixel, cell.point.z());
       cell.trust = trust(recalled_of_cell_[s].suspicion);
     }
   }
 
   /// Adds this frame's log-odds to what is remembered, and decides.
   void update(const Matches& matches, const Motion&, span<const FeatureScore>, span<Label> labels, Workspace&) {
-    pixel_ = matches.current.pixel;
-    depth_m_ = matches.current.depth_m;
-    memory_.resize(matches.size());
-    feature_count_ = matches.size();
+    pixel_.clear();
+    remembered_.clear();
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Memory before = recalled_[i];
       Label& label = labels[i];
@@ -78,23 +76,19 @@ class EvidenceMemory {
       label.log_odds = std::clamp(options.persistence * before.log_odds + now, least, options.most_log_odds);
       label.trust = matches.trust[i];
       decide(label, now, before.log_odds > options.drop_above);
-      memory_[i].log_odds = label.log_odds;
-      memory_[i].suspicion = before.suspicion;
-      if (label.log_odds > options.suspect_above)
-        memory_[i].suspicion += options.suspicion_gain * (1.0f - before.suspicion);
+      float suspicion = before.suspicion;
+      if (label.log_odds > options.suspect_above) suspicion += options.suspicion_gain * (1.0f - before.suspicion);
+      remember(matches.current.pixel[i], matches.current.depth_m[i], {label.log_odds, suspicion}, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       const SurfaceCell& cell = matches.sightings.surfaces[s];
-      pixel_.push_back(cell.pixel);
-      depth_m_.push_back(cell.point.z());
-      memory_.push_back(recalled_of_cell_[s]);
+      remember(cell.pixel, cell.point.z(), recalled_of_cell_[s], false);
     }
   }
 
   void reset() noexcept {
     pixel_.clear();
-    depth_m_.clear();
-    memory_.clear();
+    remembered_.clear();
     recalled_.clear();
     recalled_of_cell_.clear();
   }
@@ -105,31 +99,19 @@ class EvidenceMemory {
     float suspicion = 0;  ///< 0 to 1
   };
 
+  void remember(const Vector2f& pixel, double depth_m, const Memory& memory, bool is_feature) {
+    pixel_.push_back(pixel);
+    remembered_.push_back({pixel, static_cast<float>(depth_m), memory.log_odds, memory.suspicion, is_feature});
+  }
+
   float trust(float suspicion) const noexcept { return 1.0f - (1.0f - options.least_trust) * suspicion; }
 
-  Memory look_up(const PixelGrid& grid, const Vector2f& pixel, double depth_m) const {
-    const double tolerance_m = options.surface_m + options.surface_per_square_m * depth_m * depth_m;
-    const float feature_sq = options.feature_px * options.feature_px,
-                reach_sq = options.neighbour_px * options.neighbour_px;
-    float feature_weight = 0, log_odds = 0, votes = 0, suspicion = 0;
-    grid.within(pixel, options.neighbour_px, [&](std::size_t j, float squared) {
-      const bool both = depth_m > 0 && depth_m_[j] > 0;
-      if (both && std::abs(depth_m - depth_m_[j]) > tolerance_m) return;
-      const bool same_kind = (depth_m > 0) == (depth_m_[j] > 0);
-      // One with a depth, one without: perhaps the same surface. In the vote they only count where there are no others.
-      constexpr float kOtherKind = 0.2f, kVoteOfOtherKind = 0.02f;
-      const float vote = (1 - squared / reach_sq) * (same_kind ? 1.0f : kVoteOfOtherKind);
-      votes += vote;
-      suspicion += vote * memory_[j].suspicion;
-      if (j >= feature_count_ || !(squared < feature_sq)) return;
-      const float same = (1 - squared / feature_sq) * (1 - squared / feature_sq) * (same_kind ? 1.0f : kOtherKind);
-      feature_weight += same;
-      log_odds += same * memory_[j].log_odds;
-    });
+  Memory look_up(const RememberedPoints& points, const Vector2f& pixel, double depth_m) const {
+    const RememberedPoints::Sums near = points.around(pixel, static_cast<float>(depth_m));
     Memory memory;
-    if (feature_weight > 0) memory.log_odds = log_odds / feature_weight;
-    if (votes > 0) {
-      const float majority = (suspicion / votes - options.minority) / (1 - 2 * options.minority);
+    if (near.feature_weight > 0) memory.log_odds = near.log_odds / near.feature_weight;
+    if (near.votes > 0) {
+      const float majority = (near.suspicion / near.votes - options.minority) / (1 - 2 * options.minority);
       memory.suspicion = options.suspicion_persistence * std::clamp(majority, 0.0f, 1.0f);
     }
     return memory;
@@ -150,9 +132,7 @@ class EvidenceMemory {
 
   // Of the last frame, its features before its surface cells.
   std::vector<Vector2f> pixel_;
-  std::vector<double> depth_m_;
-  std::vector<Memory> memory_;
-  std::size_t feature_count_ = 0;
+  std::vector<RememberedPoint> remembered_;
   std::vector<Memory> recalled_, recalled_of_cell_;
 };
 

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame_check.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/mask_prediction.hpp"
@@ -49,10 +50,15 @@ void each_option(GuardedDepth& stage, Visit& visit) {
 }
 
 template <class Visit>
+void each_option(DepthTolerance& tolerance, Visit& visit) {
+  visit("constant_m", tolerance.constant_m);
+  visit("per_square_m", tolerance.per_square_m);
+}
+
+template <class Visit>
 void each_option(MaskPrediction& stage, Visit& visit) {
   visit("reach_px", stage.options.reach_px);
-  visit("surface_m", stage.options.surface_m);
-  visit("surface_per_square_m", stage.options.surface_per_square_m);
+  visit("same_surface", stage.options.same_surface);
   visit("longest_gap_s", stage.options.longest_gap_s);
 }
 

@@ -53,12 +53,6 @@ void each_option(PropagatedPrior& stage, Visit& visit) {
 // match/
 
 template <class Visit>
-void each_option(DepthTolerance& tolerance, Visit& visit) {
-  visit("constant_m", tolerance.constant_m);
-  visit("per_square_m", tolerance.per_square_m);
-}
-
-template <class Visit>
 void each_option(CornerTracker& stage, Visit& visit) {
   visit.positive("cell_px", stage.options.cell_px);
   visit("weakest_corner", stage.options.weakest_corner);
@@ -227,8 +221,7 @@ void each_option(EvidenceMemory& stage, Visit& visit) {
   visit.positive("feature_px", stage.options.feature_px);
   visit.positive("neighbour_px", stage.options.neighbour_px);
   visit("minority", stage.options.minority);
-  visit("surface_m", stage.options.surface_m);
-  visit("surface_per_square_m", stage.options.surface_per_square_m);
+  visit("same_surface", stage.options.same_surface);
 }
 
 template <class Visit>

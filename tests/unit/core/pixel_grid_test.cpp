@@ -50,6 +50,29 @@ TEST(PixelGrid, FindsWhatBruteForceFinds) {
   }
 }
 
+// Ranks go cell by cell; the runs hold all that is within, and nothing twice.
+TEST(PixelGrid, RunsOfRanksHoldWhatIsWithin) {
+  Random random(1);
+  std::vector<Vector2f> pixels;
+  for (int i = 0; i < 300; ++i)
+    pixels.emplace_back(static_cast<float>(random.uniform(0, 320)), static_cast<float>(random.uniform(0, 240)));
+  Workspace workspace;
+  const PixelGrid grid(pixels, 12.0f, workspace, [](std::size_t i) { return i % 3 != 0; });
+  ASSERT_EQ(grid.size(), 200u);
+  for (int query = 0; query < 50; ++query) {
+    const Vector2f pixel(static_cast<float>(random.uniform(-30, 350)), static_cast<float>(random.uniform(-30, 270)));
+    std::vector<std::size_t> visited;
+    grid.runs_around(pixel, 25.0f, [&](std::size_t first, std::size_t last) {
+      for (std::size_t rank = first; rank < last; ++rank) visited.push_back(grid.index(rank));
+    });
+    std::sort(visited.begin(), visited.end());
+    EXPECT_EQ(std::adjacent_find(visited.begin(), visited.end()), visited.end());
+    for (const std::size_t i : neighbours(grid, pixel, 25.0f))
+      EXPECT_TRUE(std::binary_search(visited.begin(), visited.end(), i));
+    EXPECT_LT(visited.size(), 100u) << "a part of the image, not all of it";
+  }
+}
+
 TEST(PixelGrid, TellsTheSquaredDistance) {
   const std::vector<Vector2f> pixels = {{13, 14}, {10, 15}};
   Workspace workspace;

@@ -38,8 +38,7 @@ class EvidenceMemoryTest : public testing::Test {
     memory_.options.feature_px = 15.0f;
     memory_.options.neighbour_px = 25.0f;
     memory_.options.minority = 0.25f;
-    memory_.options.surface_m = 0.06;
-    memory_.options.surface_per_square_m = 0.01;  // 0.1 m at 2 m
+    memory_.options.same_surface = {0.06, 0.01};  // 0.1 m at 2 m
   }
 
   /// One frame in which the features have these log-odds by themselves.
