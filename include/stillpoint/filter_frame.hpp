@@ -88,7 +88,7 @@ class FrameFilter : private PolicyContract<Policies> {
   /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
   void predicted_keep_mask(double timestamp_s, int margin_px, ImageBuffer& mask) {
     const DepthView depth = history_.empty() ? DepthView() : history_.back(1).view().depth;
-    mask_prediction.paint(timestamp_s, depth, camera.width(), camera.height(), margin_px, mask);
+    mask_prediction.paint(timestamp_s, depth, camera.width(), camera.height(), margin_px, mask, workspace_);
   }
 
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
@@ -137,8 +137,7 @@ class FrameFilter : private PolicyContract<Policies> {
     timings.run(Stage::gate, [&] { learn(gate, matches_, labels); });
     timings.run(Stage::memory, [&] { memory.update(matches_, motion, scores, labels, workspace_); });
     timings.run(Stage::verdict, [&] {
-      mask_prediction.remember(matches_, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s,
-                               workspace_);
+      mask_prediction.remember(matches_, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s);
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches_.current.depth_m);
     });

@@ -43,8 +43,8 @@ class SurfaceClusters {
     float depthless_own = 0.4f;     ///< share of its own score in the log-odds of a feature without a depth
     float depthless_shift = -3.0f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
     float alone = -1.0f;            ///< log-odds of a feature that knows nothing and has no neighbours
-    float dynamic_shift = 2.5f;     ///< what a dynamic region adds to the log-odds
-    float outside_shift = -0.5f;    ///< what lies in no region when a detector has found something dynamic
+    float dynamic_shift = 2.4f;     ///< what a dynamic region adds to the log-odds
+    float outside_shift = -0.6f;    ///< what lies in no region when a detector has found something dynamic
     float movable_shift = 0.2f;
     float fixed_shift = -0.3f;
     std::uint64_t seed = Random::kDefaultSeed;

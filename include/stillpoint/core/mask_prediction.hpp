@@ -24,9 +24,9 @@
 
 namespace stillpoint {
 
-/// Remembers the moving features of the last frame that was judged, the matcher's own corners among them (a host that
-/// extracts nothing under the mask still has them looked at), and how far each went in the image. Nothing is predicted
-/// where the last frame was not judged.
+/// Remembers the features of the last frame that was judged, the matcher's own corners among them (a host that extracts
+/// nothing under the mask still has them looked at), and how far each went in the image. A moving feature without a
+/// match of its own goes with the moving ones around it. Nothing is predicted where the last frame was not judged.
 class MaskPrediction {
  public:
   struct Options {
@@ -36,60 +36,57 @@ class MaskPrediction {
   };
   Options options;
 
-  /// Takes what a frame said. A feature without a match of its own goes with the moving ones around it.
+  /// Takes what a frame said; what follows from it is worked out when somebody asks.
   /// @param interval_s  from the reference frame to this one
-  void remember(const Matches& matches, span<const Label> labels, double timestamp_s, double interval_s,
-                Workspace& workspace) {
+  void remember(const Matches& matches, span<const Label> labels, double timestamp_s, double interval_s) {
     forget();
     timestamp_s_ = timestamp_s;
-    if (!(interval_s > 0)) return;
-    moving_.reserve(matches.size());
-    const Workspace::Scope scope(workspace);
-    const auto reach_px = static_cast<float>(options.reach_px);
-    const PixelGrid around(matches.current.pixel, reach_px, workspace, [](std::size_t) { return true; });
-    const PixelGrid followed(matches.current.pixel, 2 * reach_px, workspace, [&](std::size_t j) {
-      return labels[j].verdict == Verdict::dynamic && matches.matched(j);
-    });
+    const auto moves = [](const Label& label) { return label.verdict == Verdict::dynamic; };
+    if (!(interval_s > 0) || std::none_of(labels.begin(), labels.end(), moves)) return;
+    pixel_ = matches.current.pixel;
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      const Vector2f pixel = matches.current.pixel[i];
-      if (labels[i].verdict != Verdict::dynamic || !pixel.allFinite()) continue;
-      const auto depth_m = static_cast<float>(matches.current.depth_m[i]);
-      int moving = 0, all = 0;
-      around.within(pixel, reach_px, [&](std::size_t j, float) {
-        if (!one_surface(depth_m, static_cast<float>(matches.current.depth_m[j]))) return;
-        ++all;
-        moving += labels[j].verdict == Verdict::dynamic;
-      });
-      const Vector2f velocity_px = step_px(matches, i, followed) / static_cast<float>(interval_s);
-      moving_.push_back({pixel, velocity_px, depth_m, 2 * moving > all});
+      const Vector2f step = matches.current.pixel[i] - matches.reference.pixel[i];
+      seen_.push_back({step / static_cast<float>(interval_s), static_cast<float>(matches.current.depth_m[i]),
+                       moves(labels[i]), matches.matched(i)});
     }
   }
 
-  void forget() noexcept { moving_.clear(); }
+  void forget() noexcept {
+    pixel_.clear();
+    seen_.clear();
+  }
 
   /// Paints where they will be: for each the part of its surface that is near, without a depth the feature alone.
   /// @param timestamp_s  of the coming frame; one that is not later than the last frame's predicts nothing
   /// @param depth        of the last frame, may be empty
   /// @param margin_px    is dropped around it as well
   /// @param mask         becomes gray8 of this size: 255 keeps, 0 drops
-  void paint(double timestamp_s, const DepthView& depth, int width, int height, int margin_px, ImageBuffer& mask) {
+  void paint(double timestamp_s, const DepthView& depth, int width, int height, int margin_px, ImageBuffer& mask,
+             Workspace& workspace) {
     keep_everywhere(width, height, mask);
     const double ahead_s = timestamp_s - timestamp_s_;
-    if (moving_.empty() || !(ahead_s > 0) || !(ahead_s <= options.longest_gap_s)) return;
+    if (seen_.empty() || !(ahead_s > 0) || !(ahead_s <= options.longest_gap_s)) return;
     columns_ = (width + kCell_px - 1) / kCell_px;
     rows_ = (height + kCell_px - 1) / kCell_px;
     cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     const ImageView image(nullptr, width, height, 0, PixelFormat::gray8);
-    for (const Moving& feature : moving_) mark(feature, static_cast<float>(ahead_s), depth, image);
+    const Workspace::Scope scope(workspace);
+    const auto reach_px = static_cast<float>(options.reach_px);
+    const PixelGrid around(pixel_, reach_px, workspace, [](std::size_t) { return true; });
+    const PixelGrid followed(pixel_, 2 * reach_px, workspace,
+                             [&](std::size_t j) { return seen_[j].moves && seen_[j].followed; });
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      if (seen_[i].moves && pixel_[i].allFinite())
+        mark(i, with_surface(i, around), static_cast<float>(ahead_s) * velocity_px(i, followed), depth, image);
     drop_marked(std::max(margin_px, 0), mask);
   }
 
  private:
-  struct Moving {
-    Vector2f pixel;
-    Vector2f velocity_px;  ///< per second
+  struct Seen {
+    Vector2f velocity_px;  ///< per second, if it was followed
     float depth_m;         ///< 0 where there is none
-    bool with_surface;     ///< most features near it on its surface move as well
+    bool moves;
+    bool followed;
   };
   static constexpr int kCell_px = 4;
 
@@ -98,33 +95,43 @@ class MaskPrediction {
     return depth_m > 0 && apart_m <= options.same_surface.at(static_cast<double>(depth_m));
   }
 
-  /// How far feature `i` went since the reference frame: by its own match, else with the moving ones around it.
-  Vector2f step_px(const Matches& matches, std::size_t i, const PixelGrid& followed) const {
-    if (matches.matched(i)) return matches.current.pixel[i] - matches.reference.pixel[i];
+  /// Do most features near `i` on its surface move as well?
+  bool with_surface(std::size_t i, const PixelGrid& around) const {
+    int moving = 0, all = 0;
+    around.within(pixel_[i], static_cast<float>(options.reach_px), [&](std::size_t j, float) {
+      if (!one_surface(seen_[i].depth_m, seen_[j].depth_m)) return;
+      ++all;
+      moving += seen_[j].moves;
+    });
+    return 2 * moving > all;
+  }
+
+  /// How fast feature `i` went since the reference frame: by its own match, else with the moving ones around it.
+  Vector2f velocity_px(std::size_t i, const PixelGrid& followed) const {
+    if (seen_[i].followed) return seen_[i].velocity_px;
     const auto reach_px = static_cast<float>(2 * options.reach_px);
     Vector2f sum = Vector2f::Zero();
     float weight = 0;
-    followed.within(matches.current.pixel[i], reach_px, [&](std::size_t j, float squared) {
+    followed.within(pixel_[i], reach_px, [&](std::size_t j, float squared) {
       const float near = 1 - squared / (reach_px * reach_px);
       weight += near;
-      sum += near * (matches.current.pixel[j] - matches.reference.pixel[j]);
+      sum += near * seen_[j].velocity_px;
     });
     return weight > 0 ? Vector2f(sum / weight) : Vector2f::Zero();
   }
 
-  /// Marks the cells in which the feature and its surface will be.
-  void mark(const Moving& feature, float ahead_s, const DepthView& depth, const ImageView& image) {
-    const Vector2f step = ahead_s * feature.velocity_px;
-    mark_cell(feature.pixel + step);
-    if (depth.empty() || !feature.with_surface) return;
+  /// Marks the cells in which feature `i` and its surface will be, a step from here.
+  void mark(std::size_t i, bool with_surface, const Vector2f& step, const DepthView& depth, const ImageView& image) {
+    mark_cell(pixel_[i] + step);
+    if (depth.empty() || !with_surface) return;
     const DepthScale to_depth(image, depth.image);
     for (int dv = -options.reach_px; dv <= options.reach_px; dv += kCell_px) {
       for (int du = -options.reach_px; du <= options.reach_px; du += kCell_px) {
         if (du * du + dv * dv > options.reach_px * options.reach_px) continue;
-        const Vector2f pixel = feature.pixel + Vector2f(static_cast<float>(du), static_cast<float>(dv));
+        const Vector2f pixel = pixel_[i] + Vector2f(static_cast<float>(du), static_cast<float>(dv));
         const Vector2f there = to_depth(pixel);
         const auto u = static_cast<int>(std::lround(there.x())), v = static_cast<int>(std::lround(there.y()));
-        if (depth.image.contains(u, v) && one_surface(feature.depth_m, depth.metres(u, v))) mark_cell(pixel + step);
+        if (depth.image.contains(u, v) && one_surface(seen_[i].depth_m, depth.metres(u, v))) mark_cell(pixel + step);
       }
     }
   }
@@ -160,7 +167,9 @@ class MaskPrediction {
     }
   }
 
-  std::vector<Moving> moving_;
+  // Of the last frame that was judged; empty where nothing moves.
+  std::vector<Vector2f> pixel_;
+  std::vector<Seen> seen_;
   std::vector<std::uint8_t> cells_;
   int columns_ = 0, rows_ = 0;
   double timestamp_s_ = std::numeric_limits<double>::quiet_NaN();

@@ -48,7 +48,7 @@ class LookBack {
   GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
   SurfaceSearch surfaces;  ///< cells of smooth surface
 
-  /// Chooses the older frames, and finds the surfaces there.
+  /// Chooses the older frames, and finds the surfaces in the last one.
   /// @param filter_from_expected  where the camera is expected now
   template <class Camera, class Noise>
   void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
@@ -61,14 +61,17 @@ class LookBack {
       older.elapsed_s = current.timestamp_s - history.back(age).timestamp_s;
     }
     surfaces.collect(current, camera, noise, matches.sightings.surfaces);
-    look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings);
+    const span<OlderFrame> frames = matches.sightings.frames();
+    look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings.surfaces,
+                      frames.first(std::min<std::size_t>(frames.size(), 1)));
   }
 
   /// Looks for the surfaces once more, and for the features.
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
                  const Camera& camera, const Noise& noise, Matches& matches) const {
-    look_for_surfaces(history, filter_from_current, camera, noise, matches.sightings);
+    look_for_surfaces(history, filter_from_current, camera, noise, matches.sightings.surfaces,
+                      matches.sightings.frames());
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
@@ -97,13 +100,13 @@ class LookBack {
 
   template <class Camera, class Noise>
   void look_for_surfaces(const FrameHistory& history, const Pose& filter_from_current, const Camera& camera,
-                         const Noise& noise, Sightings& sightings) const {
-    for (OlderFrame& older : sightings.frames()) {
+                         const Noise& noise, span<const SurfaceCell> cells, span<OlderFrame> frames) const {
+    for (OlderFrame& older : frames) {
       const PastFrame& past = history.back(older.age);
       const FrameView view = past.view();
       older.reference_from_current = orthonormalized(past.filter_from_camera.inverse() * filter_from_current);
       older.of_surface.clear();
-      for (const SurfaceCell& cell : sightings.surfaces)
+      for (const SurfaceCell& cell : cells)
         older.of_surface.push_back(surfaces.look(cell, view, older.reference_from_current, camera, noise));
     }
   }

@@ -68,8 +68,9 @@ struct SupportConstraints {
     return points.first(count);
   }
 
-  span<PlaneConstraint> from_surfaces(const Matches& matches, Workspace& workspace) const {
-    const span<const OlderFrame> frames = matches.sightings.frames();
+  /// What these older frames show in the places of the surfaces.
+  span<PlaneConstraint> from_surfaces(const Matches& matches, span<const OlderFrame> frames,
+                                      Workspace& workspace) const {
     const span<PlaneConstraint> planes =
         workspace.take<PlaneConstraint>(matches.sightings.surfaces.size() * frames.size());
     std::size_t count = 0;

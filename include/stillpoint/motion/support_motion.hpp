@@ -20,6 +20,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
+#include "stillpoint/motion/ransac.hpp"
 #include "stillpoint/motion/small_linear_algebra.hpp"
 #include "stillpoint/motion/standing_camera.hpp"
 #include "stillpoint/motion/support_constraints.hpp"
@@ -35,7 +36,8 @@ class SupportMotion {
  public:
   struct Options {
     double inlier_sigmas = 4.0;     ///< beyond it a match supports a hypothesis no more
-    int trials = 60;                ///< samples of three points; half static gives (1 − 0.5³)⁶⁰ < 4e-4 to miss
+    std::size_t max_trials = 60;    ///< samples of three points: half static are missed with (1 − 0.5³)⁶⁰ < 4e-4
+    double confidence = 0.9996;     ///< of not missing what explains more than the past: often needs fewer
     double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
     double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
     double least_support = 0.08;    ///< share of all weight that the motion must explain
@@ -62,7 +64,9 @@ class SupportMotion {
     motion.status = Status::too_few_matches;
     if (points.size() < options.fewest_matches) return motion;
 
-    auto problem = problem_of(points, matches, camera, workspace);
+    const span<const OlderFrame> frames = matches.sightings.frames();
+    auto problem =
+        problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), matches, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
     Hypothesis past = polish(expected, problem, kRoughCutoffs);
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
@@ -79,10 +83,9 @@ class SupportMotion {
                       nothing_creeps(points, features, matches, camera, workspace);
     const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kFarCutoffs, problem);
 
-    double weight = 0;
-    for (const PointConstraint& point : points) weight += point.weight;
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
-    const bool explained = problem.point_support(chosen.reference_from_current) > options.least_support * weight;
+    const bool explained =
+        problem.point_support(chosen.reference_from_current) > options.least_support * total_weight(points);
     if (!explained || !any_depth(matches)) return motion;
     motion.status = inverted ? Status::consensus_inverted : Status::ok;
     motion.inliers = problem.inliers(chosen.reference_from_current);
@@ -102,7 +105,7 @@ class SupportMotion {
     const span<OlderFrame> frames = matches.sightings.frames();
     const span<PointConstraint> points = constraints.from_sightings(matches, regions, camera, workspace);
     if (frames.empty() || points.size() < options.fewest_matches * frames.size()) return;
-    auto problem = problem_of(points, matches, camera, workspace);
+    auto problem = problem_of(points, frames, matches, camera, workspace);
     calibrate(frames[0].reference_from_current, problem, workspace);
     Hypothesis trusted;
     trusted.reference_from_current = frames[0].reference_from_current;
@@ -122,7 +125,7 @@ class SupportMotion {
  private:
   static constexpr std::array<double, 4> kFarCutoffs{12.0, 6.0, 4.0, 4.0};
   static constexpr std::array<double, 3> kRoughCutoffs{12.0, 6.0, 4.0};  // near enough to measure the noise
-  static constexpr std::array<double, 3> kNearCutoffs{4.0, 3.0, 3.0};
+  static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
 
   struct Hypothesis {
     Pose reference_from_current = Pose::Identity();
@@ -130,16 +133,15 @@ class SupportMotion {
     double support = 0;
   };
 
-  /// Points, and the surfaces that a survey has found, if there was one.
+  /// Points, and the surfaces that a survey has found in these frames, if there was one.
   template <class Camera>
-  SupportProblem<Camera> problem_of(span<PointConstraint> points, const Matches& matches, const Camera& camera,
-                                    Workspace& workspace) const {
-    const span<const OlderFrame> frames = matches.sightings.frames();
+  SupportProblem<Camera> problem_of(span<PointConstraint> points, span<const OlderFrame> frames, const Matches& matches,
+                                    const Camera& camera, Workspace& workspace) const {
     const std::size_t count = std::max<std::size_t>(frames.size(), 1);
     const span<Pose> poses = workspace.take<Pose>(count, Pose::Identity());
     const span<Pose> links = workspace.take<Pose>(count, Pose::Identity());
     for (std::size_t f = 0; f < frames.size(); ++f) poses[f] = frames[f].reference_from_current;
-    return {points, constraints.from_surfaces(matches, workspace), poses, links, camera, options.inlier_sigmas};
+    return {points, constraints.from_surfaces(matches, frames, workspace), poses, links, camera, options.inlier_sigmas};
   }
 
   /// Is what is at rest better explained by a motion too small to see in any corner by itself?
@@ -214,9 +216,12 @@ class SupportMotion {
       if (matches.metric(features[k])) metric[count++] = k;
     if (count < 3) return {};
     double to_beat = problem.point_support(past.reference_from_current);
+    // What explains more than the past does has at least its share of inliers.
+    const std::size_t trials =
+        required_trials(to_beat / total_weight(points), 3, options.confidence, options.max_trials);
     Random random(options.seed);
     std::optional<Pose> best;
-    for (int trial = 0; trial < options.trials; ++trial) {
+    for (std::size_t trial = 0; trial < trials; ++trial) {
       const std::optional<Pose> pose = sample(matches, points, features, metric.first(count), random);
       if (!pose) continue;
       const double found = problem.point_support(*pose, to_beat);
@@ -225,6 +230,12 @@ class SupportMotion {
       best = pose;
     }
     return best ? polish(*best, problem, kFarCutoffs) : Hypothesis{};
+  }
+
+  static double total_weight(span<const PointConstraint> points) {
+    double sum = 0;
+    for (const PointConstraint& point : points) sum += point.weight;
+    return sum;
   }
 
   /// Three metric matches, each accepted with the probability of its weight.

@@ -131,7 +131,8 @@ void each_option(StandingCamera& standing, Visit& visit) {
 template <class Visit>
 void each_option(SupportMotion& stage, Visit& visit) {
   visit.positive("inlier_sigmas", stage.options.inlier_sigmas);
-  visit("trials", stage.options.trials);
+  visit("max_trials", stage.options.max_trials);
+  visit.positive("confidence", stage.options.confidence);
   visit("past_preference", stage.options.past_preference);
   visit("same_motion_px", stage.options.same_motion_px);
   visit("least_support", stage.options.least_support);

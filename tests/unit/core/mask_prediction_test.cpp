@@ -37,11 +37,11 @@ class MaskPredictionTest : public testing::Test {
     matches.reference.pixel.back().setConstant(std::numeric_limits<float>::quiet_NaN());
   }
   const ImageView& predict(int margin_px = 0, double timestamp_s = 2 * kInterval_s) {
-    prediction.remember(matches, labels, kInterval_s, kInterval_s, workspace);
+    prediction.remember(matches, labels, kInterval_s, kInterval_s);
     return paint(margin_px, timestamp_s);
   }
   const ImageView& paint(int margin_px = 0, double timestamp_s = 2 * kInterval_s) {
-    prediction.paint(timestamp_s, DepthView(depth.view()), kWidth, kHeight, margin_px, mask);
+    prediction.paint(timestamp_s, DepthView(depth.view()), kWidth, kHeight, margin_px, mask, workspace);
     return view = mask.view();
   }
   void set_depth(float left_m, float right_m, int edge_u) {

@@ -36,7 +36,7 @@ Regions regions_of(const Matches& matches) {
 
 SupportMotion policy() {
   SupportMotion policy;
-  policy.options.trials = 100;
+  policy.options.max_trials = 100;
   policy.options.past_preference = 0.35;
   policy.options.fewest_matches = 6;
   policy.options.least_support = 0.08;
