@@ -52,19 +52,19 @@ inline constexpr double kDepthErrorLimit = 9.0;  // squared sigmas; a wrong dept
 /// whose inverse depth is nearly unknown: what is left of its error is Sampson's.
 struct PointResidual {
   Vector3d there;                                               ///< the point in the older camera
-  double x = 0, y = 0;                                          ///< where it is seen, on the plane z = 1
+  double x = 0, y = 0, inverse_z = 0;                           ///< where it is seen, on the plane z = 1
   Vector2d off_px = Vector2d::Zero();                           ///< expected minus seen
   double xx = 0, xy = 0, yy = 0;                                ///< the pixel's information, (σ² I + a aᵀ)⁻¹
   double squared_px = std::numeric_limits<double>::infinity();  ///< off_pxᵀ information off_px
   double squared = std::numeric_limits<double>::infinity();     ///< and the depth's
-  double depth_error = 0;                                       ///< whitened
+  double depth_error = 0, depth_slope = 0;                      ///< whitened; by depth, per metre
   bool depth_counts = false;
 
   template <class Camera>
   PointResidual(const PointConstraint& constraint, const Pose& reference_from_current, const Camera& camera)
       : there(reference_from_current * constraint.point) {
     if (!(there.z() > kNearestDepth_m)) return;
-    const double inverse_z = 1.0 / there.z();
+    inverse_z = 1.0 / there.z();
     x = there.x() * inverse_z;
     y = there.y() * inverse_z;
     off_px = {camera.fx() * x + camera.cx() - constraint.pixel.x(),
@@ -83,15 +83,16 @@ struct PointResidual {
     squared_px = xx * off_px.x() * off_px.x() + 2 * xy * off_px.x() * off_px.y() + yy * off_px.y() * off_px.y();
     squared = squared_px;
     if (!(constraint.depth_m > 0)) return;
-    depth_error = (there.z() - constraint.depth_m) / constraint.depth_sigma_m;
+    depth_slope = 1.0 / constraint.depth_sigma_m;
+    depth_error = (there.z() - constraint.depth_m) * depth_slope;
     depth_counts = depth_error * depth_error < kDepthErrorLimit;
     squared += std::min(depth_error * depth_error, kDepthErrorLimit);
   }
 
   /// By `there`: ∂pixel / ∂there has the rows fx (1, 0, −x) / z and fy (0, 1, −y) / z.
   template <class Camera>
-  PointEquations equations(const PointConstraint& constraint, double weight, const Camera& camera) const {
-    const double fx = camera.fx() / there.z(), fy = camera.fy() / there.z();
+  PointEquations equations(double weight, const Camera& camera) const {
+    const double fx = camera.fx() * inverse_z, fy = camera.fy() * inverse_z;
     PointEquations equations;
     equations.xx = weight * fx * fx * xx;
     equations.xy = weight * fx * fy * xy;
@@ -103,9 +104,8 @@ struct PointResidual {
     equations.y = weight * fy * (xy * off_px.x() + yy * off_px.y());
     equations.z = -(equations.x * x + equations.y * y);
     if (!depth_counts) return equations;
-    const double slope = 1.0 / constraint.depth_sigma_m;
-    equations.zz += weight * slope * slope;
-    equations.z += weight * slope * depth_error;
+    equations.zz += weight * depth_slope * depth_slope;
+    equations.z += weight * depth_slope * depth_error;
     return equations;
   }
 };
@@ -144,7 +144,7 @@ MotionEquations equations_of(span<const PointConstraint> points, span<const Plan
     const PointResidual point(constraint, reference_from_current, camera);
     const double weight = constraint.weight * tukey(point.squared);
     if (!(weight > 0)) continue;
-    equations.add(point.there, point.equations(constraint, weight, camera));
+    equations.add(point.there, point.equations(weight, camera));
   }
   for (const PlaneConstraint& plane : planes) {
     const Vector3d there = reference_from_current * plane.point;

@@ -68,7 +68,7 @@ class SupportMotion {
     auto problem =
         problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), matches, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
-    Hypothesis past = polish(expected, problem, kRoughCutoffs);
+    Hypothesis past = polish(expected, problem, kFarCutoffs);
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
     motion.pixel_sigma = noise.pixel_sigma;
     motion.depth_noise = noise.depth_scale;
@@ -123,8 +123,7 @@ class SupportMotion {
   }
 
  private:
-  static constexpr std::array<double, 4> kFarCutoffs{12.0, 6.0, 4.0, 4.0};
-  static constexpr std::array<double, 3> kRoughCutoffs{12.0, 6.0, 4.0};  // near enough to measure the noise
+  static constexpr std::array<double, 3> kFarCutoffs{12.0, 6.0, 4.0};
   static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
 
   struct Hypothesis {
