@@ -28,8 +28,8 @@ class SurfaceClusters {
   struct Options {
     std::size_t features_per_cluster = 30;
     std::size_t fewest_clusters = 2;
-    std::size_t fewest_members = 3;  ///< of each part of a split
-    int max_iterations = 5;
+    std::size_t fewest_members = 3;       ///< of each part of a split
+    int max_iterations = 3;               ///< of K-means: a fourth and a fifth changed nothing
     double extent_px = 40.0;              ///< what one unit of the clusters' lateral coordinates is in the image
     double depth_extent_m = 0.0436;       ///< and of the depth coordinate, at the nearest depth …
     double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond `nearest_m`: three Kinect sigmas
@@ -56,7 +56,7 @@ class SurfaceClusters {
     const Workspace::Scope scope(workspace);
     const span<float> common = workspace.take<float>(matches.size(), kNone);
     share_in_clusters(matches, scores, regions, labels, common, workspace);
-    const PixelGrid grid(matches.current.pixel, options.neighbour_px, workspace,
+    const PixelGrid grid(matches.current.pixel, 0.5f * options.neighbour_px, workspace,
                          [&](std::size_t i) { return !std::isnan(common[i]); });
     const auto level = static_cast<float>(threshold.level);
     const bool any_dynamic = std::any_of(regions.detections.begin(), regions.detections.end(),
@@ -95,12 +95,6 @@ class SurfaceClusters {
     return std::clamp(score.value, options.lowest, options.highest);
   }
 
-  /// ∫ dz / extent(z) with extent a + b (z − nearest)²: depth in units of its own noise.
-  double whitened_depth(double depth_m) const noexcept {
-    const double a = options.depth_extent_m, b = options.depth_extent_growth;
-    return std::atan((depth_m - options.nearest_m) * std::sqrt(b / a)) / std::sqrt(a * b);
-  }
-
   /// `common[i]` becomes the mean score of the population of feature i; NaN where it has no depth.
   void share_in_clusters(const Matches& matches, span<const FeatureScore> scores, const Regions& regions,
                          span<Label> labels, span<float> common, Workspace& workspace) const {
@@ -110,12 +104,16 @@ class SurfaceClusters {
       if (matches.current.has_depth(i)) member[count++] = static_cast<std::uint32_t>(i);
     if (count == 0) return;
     PointArrays points(count, workspace);
+    // ∫ dz / extent(z) with extent a + b (z − nearest)²: depth in units of its own noise.
+    const double a = options.depth_extent_m, b = options.depth_extent_growth;
+    const double inside = std::sqrt(b / a), outside = 1.0 / std::sqrt(a * b);
+    const auto whitened = [&](double depth_m) { return outside * std::atan((depth_m - options.nearest_m) * inside); };
     for (std::size_t j = 0; j < count; ++j) {
       const std::size_t i = member[j];
       constexpr double kApart = 1000.0;  // regions share no cluster
       const Vector2d lateral = matches.current.pixel[i].cast<double>() / options.extent_px;
       points.set(j, {lateral.x(), lateral.y(),
-                     whitened_depth(matches.current.depth_m[i]) + kApart * (regions.of_feature[i].dynamic_region + 1)});
+                     whitened(matches.current.depth_m[i]) + kApart * (regions.of_feature[i].dynamic_region + 1)});
     }
     const std::size_t wanted = std::max(options.fewest_clusters, count / options.features_per_cluster);
     Random random(options.seed);

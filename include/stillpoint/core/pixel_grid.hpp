@@ -20,21 +20,28 @@ class PixelGrid {
   /// @param accept `bool(std::size_t)`: which points take part
   template <class Accept>
   PixelGrid(span<const Vector2f> pixels, float cell_px, Workspace& workspace, const Accept& accept)
-      : pixels_(pixels), cell_px_(cell_px) {
+      : cells_per_px_(1.0f / cell_px) {
+    // In the order of the list, then moved to the cells.
+    const span<Entry> listed = workspace.take<Entry>(pixels.size());
+    std::size_t count = 0;
     Vector2f largest = Vector2f::Zero();
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-      if (takes_part(i, accept)) largest = largest.cwiseMax(pixels[i].cwiseMin(kLargest_px));
-    columns_ = std::min(static_cast<std::size_t>(largest.x() / cell_px) + 1, kMostCells);
-    rows_ = std::min(static_cast<std::size_t>(largest.y() / cell_px) + 1, kMostCells);
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (!pixels[i].allFinite() || !accept(i)) continue;
+      largest = largest.cwiseMax(pixels[i]);
+      listed[count++] = {pixels[i], static_cast<std::uint32_t>(i)};
+    }
+    const auto cells_to = [this](float largest_px) {
+      return std::min(static_cast<std::size_t>(std::min(largest_px, kLargest_px) * cells_per_px_) + 1, kMostCells);
+    };
+    columns_ = cells_to(largest.x());
+    rows_ = cells_to(largest.y());
     begin_ = workspace.take<std::uint32_t>(columns_ * rows_ + 1);
-    entry_ = workspace.take<Entry>(pixels.size());
+    entry_ = workspace.take<Entry>(count);
     // Counting sort: count, sum up, put in place from behind.
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-      if (takes_part(i, accept)) ++begin_[cell(pixels[i])];
+    for (const Entry& entry : listed.first(count)) ++begin_[cell(entry.pixel)];
     std::uint32_t sum = 0;
     for (std::uint32_t& entry : begin_) entry = sum += entry;
-    for (std::size_t i = pixels.size(); i-- > 0;)
-      if (takes_part(i, accept)) entry_[--begin_[cell(pixels[i])]] = {pixels[i], static_cast<std::uint32_t>(i)};
+    for (std::size_t k = count; k-- > 0;) entry_[--begin_[cell(listed[k].pixel)]] = listed[k];
   }
 
   /// Calls `visit(index, squared_distance_px)` for every point within `radius_px`, cell by cell, in a fixed order.
@@ -60,7 +67,7 @@ class PixelGrid {
   }
 
   /// How many points take part.
-  std::size_t size() const noexcept { return begin_[columns_ * rows_]; }
+  std::size_t size() const noexcept { return entry_.size(); }
   /// The index of the point of a rank.
   std::size_t index(std::size_t rank) const noexcept { return entry_[rank].index; }
 
@@ -73,19 +80,14 @@ class PixelGrid {
   static constexpr float kLargest_px = 1e5f;
   static constexpr std::size_t kMostCells = 512;  // to a side: the last ones take in what is farther away
 
-  template <class Accept>
-  bool takes_part(std::size_t i, const Accept& accept) const {
-    return pixels_[i].allFinite() && accept(i);
-  }
   std::size_t clamped(float coordinate_px, std::size_t count) const noexcept {
-    return static_cast<std::size_t>(std::clamp(coordinate_px / cell_px_, 0.0f, static_cast<float>(count - 1)));
+    return static_cast<std::size_t>(std::clamp(coordinate_px * cells_per_px_, 0.0f, static_cast<float>(count - 1)));
   }
   std::size_t cell(const Vector2f& pixel) const noexcept {
     return clamped(pixel.y(), rows_) * columns_ + clamped(pixel.x(), columns_);
   }
 
-  span<const Vector2f> pixels_;
-  float cell_px_;
+  float cells_per_px_;
   std::size_t columns_ = 1, rows_ = 1;
   span<std::uint32_t> begin_;
   span<Entry> entry_;  // cell by cell: a search reads on without jumps

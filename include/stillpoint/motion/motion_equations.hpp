@@ -4,34 +4,42 @@
 
 // Normal equations of a small motion of the current camera, from what it does to single points.
 
+#include <algorithm>
+#include <iterator>
+
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/motion/lanes.hpp"
 
 namespace stillpoint {
 
 /// What the residuals of one point say of its place: Σ w g gᵀ and Σ w e g over residuals e with ∂e/∂point = gᵀ.
+/// @tparam Real  double, or `Lanes` for two points at once
+template <class Real>
 struct PointEquations {
-  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  double x = 0, y = 0, z = 0;
-
-  /// Of one residual.
-  static PointEquations of(const Vector3d& slope, double error, double weight) noexcept {
-    const double x = slope.x(), y = slope.y(), z = slope.z();
-    const double wx = weight * x, wy = weight * y, wz = weight * z;
-    return {wx * x, wx * y, wx * z, wy * y, wy * z, wz * z, wx * error, wy * error, wz * error};
-  }
+  Real xx, xy, xz, yy, yz, zz;
+  Real x, y, z;
 };
 
 /// Σ w J Jᵀ and Σ w e J by the six numbers (ω, v) that move the older camera's points: p' = p − ω × p − v, so that a
 /// residual has J = (g × p, −g). Plain sums, because Eigen's products of this size go through memory.
+template <class Real>
 class MotionEquations {
  public:
-  /// @param p  in the older camera
-  void add(const Vector3d& p, const PointEquations& s) noexcept {
-    const double px = p.x(), py = p.y(), pz = p.z();
+  MotionEquations() {
+    std::fill(std::begin(rotation_), std::end(rotation_), lanes_of<Real>(0.0));
+    std::fill(std::begin(mixed_), std::end(mixed_), lanes_of<Real>(0.0));
+    std::fill(std::begin(translation_), std::end(translation_), lanes_of<Real>(0.0));
+    std::fill(std::begin(gradient_), std::end(gradient_), lanes_of<Real>(0.0));
+  }
+
+  /// @param p  in the older camera: x, y, z
+  template <class Point>
+  void add(const Point& p, const PointEquations<Real>& s) {
+    const Real &px = p.x, &py = p.y, &pz = p.z;
     // The columns of Σ w (g × p) gᵀ.
-    const double xx = s.xy * pz - s.xz * py, yx = s.xz * px - s.xx * pz, zx = s.xx * py - s.xy * px;
-    const double xy = s.yy * pz - s.yz * py, yy = s.yz * px - s.xy * pz, zy = s.xy * py - s.yy * px;
-    const double xz = s.yz * pz - s.zz * py, yz = s.zz * px - s.xz * pz, zz = s.xz * py - s.yz * px;
+    const Real xx = s.xy * pz - s.xz * py, yx = s.xz * px - s.xx * pz, zx = s.xx * py - s.xy * px;
+    const Real xy = s.yy * pz - s.yz * py, yy = s.yz * px - s.xy * pz, zy = s.xy * py - s.yy * px;
+    const Real xz = s.yz * pz - s.zz * py, yz = s.zz * px - s.xz * pz, zz = s.xz * py - s.yz * px;
     mixed_[0] += xx, mixed_[1] += xy, mixed_[2] += xz;
     mixed_[3] += yx, mixed_[4] += yy, mixed_[5] += yz;
     mixed_[6] += zx, mixed_[7] += zy, mixed_[8] += zz;
@@ -55,18 +63,21 @@ class MotionEquations {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const int lower = i < j ? j * (j + 1) / 2 + i : i * (i + 1) / 2 + j;
-        matrix(i, j) = rotation_[lower];
-        matrix(i, 3 + j) = matrix(3 + j, i) = -mixed_[3 * i + j];
-        matrix(3 + i, 3 + j) = translation_[lower];
+        matrix(i, j) = sum_of(rotation_[lower]);
+        matrix(i, 3 + j) = matrix(3 + j, i) = -sum_of(mixed_[3 * i + j]);
+        matrix(3 + i, 3 + j) = sum_of(translation_[lower]);
       }
     return matrix;
   }
 
-  Vector6d gradient() const { return Eigen::Map<const Vector6d>(gradient_); }
+  Vector6d gradient() const {
+    Vector6d gradient;
+    for (int i = 0; i < 6; ++i) gradient[i] = sum_of(gradient_[i]);
+    return gradient;
+  }
 
  private:
-  double rotation_[6] = {}, mixed_[9] = {}, translation_[6] = {};  // triangles, and a square, row by row
-  double gradient_[6] = {};
+  Real rotation_[6], mixed_[9], translation_[6], gradient_[6];  // triangles, and a square, row by row
 };
 
 /// From x = (ω, v) of the current camera, p' = Exp(ω) p + v, to what it does to the points of an older one:

@@ -6,118 +6,32 @@
 // Gauss-Newton on whitened residuals.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/motion/lanes.hpp"
 #include "stillpoint/motion/motion_equations.hpp"
+#include "stillpoint/motion/reprojection_residual.hpp"
 #include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 
-/// One point of the current frame, seen again in an older one.
-struct PointConstraint {
-  Vector3d point = Vector3d::Zero();  ///< in the current camera, metres
-  double inverse_depth_sigma = 0;     ///< of 1 / point.z, per metre: how far along its epipolar line the pixel may lie
-  Vector2d pixel = Vector2d::Zero();  ///< where the older frame shows it, undistorted
-  double pixel_sigma = 1;             ///< pixels
-  double depth_m = 0;                 ///< what the older frame measured there, metres, 0 none
-  double depth_sigma_m = 1;           ///< of the difference of both depths
-  double weight = 1;                  ///< 0 to 1
-  double trusted_weight = 1;          ///< what it would be if memory suspected nothing
-  std::size_t frame = 0;              ///< which older frame
-};
-
-/// One point of the current frame, and the surface that an older frame shows in its place.
-struct PlaneConstraint {
-  Vector3d point = Vector3d::Zero();   ///< in the current camera, metres
-  Vector3d target = Vector3d::Zero();  ///< on the older frame's surface, in that camera
-  Vector3d slope =
-      Vector3d::Zero();  ///< of the surface, in that camera: its normal over the distance's sigma in metres
-  double weight = 1;
-  double trusted_weight = 1;
-  std::size_t frame = 0;
-};
-
 namespace detail {
 
-inline constexpr double kNearestDepth_m = 0.05;  // nearer, or behind the lens: no constraint
 inline constexpr double kNegligibleStep = 1e-4;  // squared, in standard deviations of the motion
-inline constexpr double kDepthErrorLimit = 9.0;  // squared sigmas; a wrong depth must not veto a right pixel
-
-/// How far from its place an older frame shows a point. The pixel's covariance is σ² I + a aᵀ: noise all round, and a,
-/// what one standard deviation of the inverse depth moves it along its epipolar line. A point without a depth is one
-/// whose inverse depth is nearly unknown: what is left of its error is Sampson's.
-struct PointResidual {
-  Vector3d there;                                               ///< the point in the older camera
-  double x = 0, y = 0, inverse_z = 0;                           ///< where it is seen, on the plane z = 1
-  Vector2d off_px = Vector2d::Zero();                           ///< expected minus seen
-  double xx = 0, xy = 0, yy = 0;                                ///< the pixel's information, (σ² I + a aᵀ)⁻¹
-  double squared_px = std::numeric_limits<double>::infinity();  ///< off_pxᵀ information off_px
-  double squared = std::numeric_limits<double>::infinity();     ///< and the depth's
-  double depth_error = 0, depth_slope = 0;                      ///< whitened; by depth, per metre
-  bool depth_counts = false;
-
-  template <class Camera>
-  PointResidual(const PointConstraint& constraint, const Pose& reference_from_current, const Camera& camera)
-      : there(reference_from_current * constraint.point) {
-    if (!(there.z() > kNearestDepth_m)) return;
-    inverse_z = 1.0 / there.z();
-    x = there.x() * inverse_z;
-    y = there.y() * inverse_z;
-    off_px = {camera.fx() * x + camera.cx() - constraint.pixel.x(),
-              camera.fy() * y + camera.cy() - constraint.pixel.y()};
-    // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = −R p / ρ = (t − there) z.
-    const Vector3d from_there = reference_from_current.translation() - there;
-    const double spread = constraint.point.z() * constraint.inverse_depth_sigma * inverse_z;
-    const double along_x = camera.fx() * spread * (from_there.x() - x * from_there.z());
-    const double along_y = camera.fy() * spread * (from_there.y() - y * from_there.z());
-    // Sherman and Morrison: (v I + a aᵀ)⁻¹ = (I − a aᵀ / (v + aᵀa)) / v.
-    const double variance = constraint.pixel_sigma * constraint.pixel_sigma;
-    const double scale = 1.0 / (variance * (variance + along_x * along_x + along_y * along_y));
-    xx = scale * (variance + along_y * along_y);
-    xy = -scale * along_x * along_y;
-    yy = scale * (variance + along_x * along_x);
-    squared_px = xx * off_px.x() * off_px.x() + 2 * xy * off_px.x() * off_px.y() + yy * off_px.y() * off_px.y();
-    squared = squared_px;
-    if (!(constraint.depth_m > 0)) return;
-    depth_slope = 1.0 / constraint.depth_sigma_m;
-    depth_error = (there.z() - constraint.depth_m) * depth_slope;
-    depth_counts = depth_error * depth_error < kDepthErrorLimit;
-    squared += std::min(depth_error * depth_error, kDepthErrorLimit);
-  }
-
-  /// By `there`: ∂pixel / ∂there has the rows fx (1, 0, −x) / z and fy (0, 1, −y) / z.
-  template <class Camera>
-  PointEquations equations(double weight, const Camera& camera) const {
-    const double fx = camera.fx() * inverse_z, fy = camera.fy() * inverse_z;
-    PointEquations equations;
-    equations.xx = weight * fx * fx * xx;
-    equations.xy = weight * fx * fy * xy;
-    equations.yy = weight * fy * fy * yy;
-    equations.xz = -(equations.xx * x + equations.xy * y);
-    equations.yz = -(equations.xy * x + equations.yy * y);
-    equations.zz = -(equations.xz * x + equations.yz * y);
-    equations.x = weight * fx * (xx * off_px.x() + xy * off_px.y());
-    equations.y = weight * fy * (xy * off_px.x() + yy * off_px.y());
-    equations.z = -(equations.x * x + equations.y * y);
-    if (!depth_counts) return equations;
-    equations.zz += weight * depth_slope * depth_slope;
-    equations.z += weight * depth_slope * depth_error;
-    return equations;
-  }
-};
 
 /// Tukey's biweight of a squared residual (Beaton and Tukey, 1974); 0 at the cutoff and beyond.
 class Tukey {
  public:
   explicit Tukey(double cutoff) noexcept : inverse_limit_(1.0 / (cutoff * cutoff)) {}
 
-  double operator()(double squared) const noexcept {
-    const double rest = 1.0 - squared * inverse_limit_;
-    return rest > 0 ? rest * rest : 0.0;
+  template <class Real>
+  Real operator()(const Real& squared) const {
+    const Real rest = 1.0 - squared * inverse_limit_;
+    return where(rest > 0.0, Real(rest * rest), lanes_of<Real>(0.0));
   }
 
  private:
@@ -135,33 +49,61 @@ span<const Constraint> in_frame(span<const Constraint> constraints, std::size_t 
                              static_cast<std::size_t>(end - begin));
 }
 
-/// What one older frame says, weighted by Tukey.
+/// What one older frame says, weighted by Tukey: two constraints at a time, those left over and those that no lane
+/// should meet, behind the camera or not finite, one by one.
 template <class Camera>
-MotionEquations equations_of(span<const PointConstraint> points, span<const PlaneConstraint> planes,
-                             const Pose& reference_from_current, const Tukey& tukey, const Camera& camera) {
-  MotionEquations equations;
-  for (const PointConstraint& constraint : points) {
-    const PointResidual point(constraint, reference_from_current, camera);
-    const double weight = constraint.weight * tukey(point.squared);
-    if (!(weight > 0)) continue;
-    equations.add(point.there, point.equations(weight, camera));
+class FrameEquations {
+ public:
+  FrameEquations(const Pose& reference_from_current, const Tukey& tukey, const Camera& camera)
+      : reference_from_current_(reference_from_current), tukey_(tukey), camera_(camera) {}
+
+  template <class Constraint>
+  void add(span<const Constraint> constraints) {
+    std::size_t k = 0;
+    for (; k + 1 < constraints.size(); k += 2) {
+      if (add_if_finite(both_, constraints[k], constraints[k + 1])) continue;
+      add_if_finite(single_, constraints[k]);
+      add_if_finite(single_, constraints[k + 1]);
+    }
+    if (k < constraints.size()) add_if_finite(single_, constraints[k]);
   }
-  for (const PlaneConstraint& plane : planes) {
-    const Vector3d there = reference_from_current * plane.point;
-    const double error = plane.slope.dot(there - plane.target);
-    const double weight = plane.weight * tukey(error * error);
-    if (weight > 0) equations.add(there, PointEquations::of(plane.slope, error, weight));
+
+  Matrix6d matrix() const { return both_.matrix() + single_.matrix(); }
+  Vector6d gradient() const { return both_.gradient() + single_.gradient(); }
+
+ private:
+  static bool finite(double squared) noexcept { return squared < std::numeric_limits<double>::infinity(); }
+  static bool finite(const Lanes& squared) { return finite(squared(0)) && finite(squared(1)); }
+
+  template <class Real, class... Points,
+            std::enable_if_t<(std::is_same<Points, PointConstraint>::value && ...), int> = 0>
+  bool add_if_finite(MotionEquations<Real>& equations, const Points&... points) {
+    const PointResidual<Real> residual(reference_from_current_, camera_, points...);
+    if (!finite(residual.squared)) return false;
+    const Real weight = lanes(points.weight...) * tukey_(residual.squared);
+    equations.add(residual.there, residual.equations(weight, camera_));
+    return true;
   }
-  return equations;
-}
+
+  template <class Real, class... Planes,
+            std::enable_if_t<(std::is_same<Planes, PlaneConstraint>::value && ...), int> = 0>
+  bool add_if_finite(MotionEquations<Real>& equations, const Planes&... planes) {
+    const PlaneResidual<Real> residual(reference_from_current_, planes...);
+    const Real squared = residual.error * residual.error;
+    if (!finite(squared)) return false;
+    const Real weight = lanes(planes.weight...) * tukey_(squared);
+    equations.add(residual.there, residual.equations(weight));
+    return true;
+  }
+
+  const Pose& reference_from_current_;
+  const Tukey& tukey_;
+  const Camera& camera_;
+  MotionEquations<Lanes> both_;
+  MotionEquations<double> single_;
+};
 
 }  // namespace detail
-
-/// The squared whitened residual: 2 degrees of freedom, 3 with a depth.
-template <class Camera>
-double squared_residual(const PointConstraint& constraint, const Pose& reference_from_current, const Camera& camera) {
-  return detail::PointResidual(constraint, reference_from_current, camera).squared;
-}
 
 /// Looks for the small motion x = (ω, v) of the current camera that all older frames share, p' = Exp(ω) p + v, and
 /// moves every `reference_from_current` by its inverse.
@@ -177,12 +119,13 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
   double settled_at = 0;
   for (const double cutoff : cutoffs) {
     if (!(cutoff < settled_at || settled_at <= 0)) continue;  // once more would change nothing
+    const detail::Tukey tukey(cutoff);
     Matrix6d normal = Matrix6d::Zero();
     Vector6d gradient = Vector6d::Zero();
     for (std::size_t frame = 0; frame < poses.size(); ++frame) {
-      const MotionEquations equations =
-          detail::equations_of(detail::in_frame(points, frame), detail::in_frame(planes, frame), poses[frame],
-                               detail::Tukey(cutoff), camera);
+      detail::FrameEquations<Camera> equations(poses[frame], tukey, camera);
+      equations.add(detail::in_frame(points, frame));
+      equations.add(detail::in_frame(planes, frame));
       const Matrix6d adjoint = motion_of_older_points(poses[frame]);
       normal += adjoint.transpose() * equations.matrix() * adjoint;
       gradient += adjoint.transpose() * equations.gradient();

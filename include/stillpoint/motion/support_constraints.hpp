@@ -14,7 +14,7 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
-#include "stillpoint/motion/reprojection_refinement.hpp"
+#include "stillpoint/motion/reprojection_residual.hpp"
 
 namespace stillpoint {
 
@@ -116,7 +116,7 @@ struct SupportConstraints {
     point.pixel_sigma = pixel_sigma;
     point.depth_m = seen_depth_m;
     if (seen_depth_m > 0)
-      point.depth_sigma_m = depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + depth_floor_m;
+      point.depth_slope = 1.0 / (depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + depth_floor_m);
     set_weight(point, matches, regions, i);
     point.frame = frame;
     return point;

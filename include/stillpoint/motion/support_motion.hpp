@@ -72,16 +72,18 @@ class SupportMotion {
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
     motion.pixel_sigma = noise.pixel_sigma;
     motion.depth_noise = noise.depth_scale;
-    past = polish(past.reference_from_current, problem, kFarCutoffs);
+    past = polish(past.reference_from_current, problem, kAgainCutoffs);
     const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
     const bool differ =
         sampled.support > past.support &&
         problem.distance_px(sampled.reference_from_current, past.reference_from_current) > options.same_motion_px;
-    const bool inverted = differ && past.support > options.past_preference * sampled.support;
+    const bool knows_past =
+        prior.current_from_reference.has_value();  // else it began with no motion, for want of better
+    const bool inverted = differ && knows_past && past.support > options.past_preference * sampled.support;
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
     motion.standing = standing.since_last_frame(matches, prior.standing) &&
                       nothing_creeps(points, features, matches, camera, workspace);
-    const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kFarCutoffs, problem);
+    const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
 
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
     const bool explained =
@@ -123,7 +125,8 @@ class SupportMotion {
   }
 
  private:
-  static constexpr std::array<double, 3> kFarCutoffs{12.0, 6.0, 4.0};
+  static constexpr std::array<double, 3> kFarCutoffs{12.0, 6.0, 4.0};  // from a pose that is a guess
+  static constexpr std::array<double, 2> kAgainCutoffs{12.0, 4.0};     // from one that was polished already
   static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
 
   struct Hypothesis {

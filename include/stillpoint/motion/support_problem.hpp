@@ -63,8 +63,8 @@ class SupportProblem {
     std::size_t count = 0;
     spread(pose);
     for (const PointConstraint& point : points_) {
-      if (!(point.weight > kTrusted) || !(point.depth_m > 0)) continue;
-      const detail::PointResidual residual(point, poses_[point.frame], camera_);
+      if (!(point.weight > kTrusted) || !point.has_depth()) continue;
+      const PointResidual<double> residual(poses_[point.frame], camera_, point);
       if (!std::isfinite(residual.squared)) continue;
       squared_px[count] = residual.squared_px * point.pixel_sigma * point.pixel_sigma;
       squared_depth[count++] = residual.depth_error * residual.depth_error;
@@ -80,7 +80,7 @@ class SupportProblem {
     for (PointConstraint& point : points_) {
       point.pixel_sigma = noise.pixel_sigma;
       point.inverse_depth_sigma *= noise.depth_scale;
-      point.depth_sigma_m *= noise.depth_scale;
+      point.depth_slope /= noise.depth_scale;
     }
     for (PlaneConstraint& plane : planes_) plane.slope /= noise.depth_scale;
     return noise;
@@ -96,12 +96,21 @@ class SupportProblem {
     spread(pose);
     double left = 0, sum = 0;
     for (const PointConstraint& point : points_) left += point.weight;
-    for (const PointConstraint& point : points_) {
-      sum += point.weight * share(squared_residual(point, poses_[point.frame], camera_));
-      left -= point.weight;
-      if (sum + left < to_beat) return 0.0;
+    for (std::size_t k = 0; k < points_.size() && !(sum + left < to_beat);) {
+      const PointConstraint& point = points_[k];
+      if (k + 1 < points_.size() && points_[k + 1].frame == point.frame) {
+        const PointConstraint& next = points_[k + 1];
+        const PointResidual<Lanes> both(poses_[point.frame], camera_, point, next);
+        sum += point.weight * share(both.squared(0)) + next.weight * share(both.squared(1));
+        left -= point.weight + next.weight;
+        k += 2;
+      } else {
+        sum += point.weight * share(squared_residual(point, poses_[point.frame], camera_));
+        left -= point.weight;
+        ++k;
+      }
     }
-    return sum;
+    return sum + left < to_beat ? 0.0 : sum;
   }
 
   /// The same over points and planes.
@@ -137,7 +146,7 @@ class SupportProblem {
     double sum = 0;
     for (const PointConstraint& point : points_) {
       const Vector3d pa = a * point.point, pb = b * point.point;
-      const bool both = pa.z() > detail::kNearestDepth_m && pb.z() > detail::kNearestDepth_m;
+      const bool both = pa.z() > PointResidual<double>::kNearest_m && pb.z() > PointResidual<double>::kNearest_m;
       sum += both ? std::min((camera_.project(pa) - camera_.project(pb)).norm(), kFar_px) : kFar_px;
     }
     return sum / static_cast<double>(points_.size());
