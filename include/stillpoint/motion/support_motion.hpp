@@ -41,7 +41,7 @@ class SupportMotion {
     double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
     double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
     double least_support = 0.08;    ///< share of all weight that the motion must explain
-    double undisputed_loss = 60.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
+    double undisputed_loss = 48.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
     double creep_gain = 60.0;       ///< squared sigmas by which a motion must beat standing still
     double least_pixel_sigma = 0.1;  ///< of what is measured; the most is `constraints.pixel_sigma`
     double most_depth_noise = 4.0;   ///< of what is measured, over what is assumed; the least is 1
