@@ -6,7 +6,6 @@
 
 #include <opencv2/core/hal/intrin.hpp>
 
-#include <array>
 #include <cstddef>
 
 #include "stillpoint/core/depth_tolerance.hpp"
