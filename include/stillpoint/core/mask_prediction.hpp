@@ -41,6 +41,8 @@ class MaskPrediction {
   void remember(const Matches& matches, span<const Label> labels, double timestamp_s, double interval_s) {
     forget();
     timestamp_s_ = timestamp_s;
+    pixel_.reserve(matches.size());  // with the first frame, not with the first that moves
+    seen_.reserve(matches.size());
     const auto moves = [](const Label& label) { return label.verdict == Verdict::dynamic; };
     if (!(interval_s > 0) || std::none_of(labels.begin(), labels.end(), moves)) return;
     pixel_ = matches.current.pixel;
