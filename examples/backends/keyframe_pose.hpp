@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The half of a small RGB-D odometry that does not depend on its features: the pose of a frame from the points of the
+// What small RGB-D odometries have in common, whatever their features: the pose of a frame from the points of the
 // nearest keyframes, and which frames become keyframes. How a feature is found again is up to the caller.
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "keyframe.hpp"
+#include "feature_depth.hpp"
 #include "robust_pose.hpp"
 #include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
@@ -21,7 +21,7 @@
 
 namespace examples {
 
-/// A frame without its images: its features and the points that their depth makes of them.
+/// A frame: its features and where they are. Where its camera stands is known once it is a keyframe.
 template <class Features>
 struct PointFrame {
   Features features;
@@ -31,8 +31,10 @@ struct PointFrame {
 };
 
 /// A feature of the current frame, found again in a keyframe.
-struct FeaturePair {
-  std::size_t current, keyframe;
+struct FoundAgain {
+  std::size_t feature;  ///< of the current frame
+  Vector2d pixel;       ///< in the keyframe, undistorted
+  double depth_m;       ///< in the keyframe
 };
 
 /// @tparam Features  has `keypoints`, cv::KeyPoint, and whatever finds them again
@@ -59,12 +61,12 @@ class KeyframePose {
 
   const Camera& camera() const { return camera_; }
 
-  /// @param match  called as match(keyframe, current, camera_from_world, is_lost, pairs) and appends to `pairs`;
+  /// @param match  called as match(keyframe, current, camera_from_world, is_lost, found) and appends to `found`;
   ///               camera_from_world is the expected pose, which says nothing where the camera is lost
   /// @return world_from_camera. Nothing where too few features fit, or before a first frame with depth.
   template <class Match>
-  std::optional<Pose> track(const stillpoint::FrameView& frame, const Features& features, Match&& match) {
-    Frame current = prepare(frame, features);
+  std::optional<Pose> track(const stillpoint::FrameView& frame, Features features, Match&& match) {
+    Frame current = prepare(frame, std::move(features));
     if (keyframes_.empty()) return begin(std::move(current));
     Pose camera_from_world = stillpoint::orthonormalized(motion_ * camera_from_world_);
     if (!solve_near(current, match, camera_from_world) && !relocalize(current, match, camera_from_world)) {
@@ -83,15 +85,10 @@ class KeyframePose {
   }
 
  private:
-  struct Source {
-    std::size_t feature;
-    const Frame* keyframe;
-  };
-
-  Frame prepare(const stillpoint::FrameView& frame, const Features& features) const {
+  Frame prepare(const stillpoint::FrameView& frame, Features&& features) const {
     Frame current;
-    current.features = features;
-    for (const cv::KeyPoint& keypoint : features.keypoints) {
+    current.features = std::move(features);
+    for (const cv::KeyPoint& keypoint : current.features.keypoints) {
       current.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));
       current.depth_m.push_back(depth_at(frame.depth, keypoint.pt, options.depth_limits));
     }
@@ -111,23 +108,22 @@ class KeyframePose {
   template <class Match>
   void see(const Frame& current, const Frame& keyframe, const Match& match, const Pose& camera_from_world,
            bool is_lost) {
-    pairs_.clear();
-    match(keyframe, current, camera_from_world, is_lost, pairs_);
-    for (const FeaturePair& pair : pairs_) {
-      const double depth_there_m = keyframe.depth_m[pair.keyframe], depth_m = current.depth_m[pair.current];
-      if (!(depth_there_m > 0)) continue;
-      const Vector3d p_keyframe = camera_.back_project(keyframe.pixel[pair.keyframe], depth_there_m);
-      const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(depth_there_m) / depth_there_m);
-      sightings_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[pair.current], options.pixel_sigma,
+    found_.clear();
+    match(keyframe, current, camera_from_world, is_lost, found_);
+    for (const FoundAgain& there : found_) {
+      const Vector3d p_keyframe = camera_.back_project(there.pixel, there.depth_m);
+      const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(there.depth_m) / there.depth_m);
+      const double depth_m = current.depth_m[there.feature];
+      sightings_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[there.feature], options.pixel_sigma,
                             depth_m, depth_sigma(depth_m), keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
-                            current.features.weights[pair.current]});
-      sources_.push_back({pair.current, &keyframe});
+                            current.features.weights[there.feature], there.feature});
+      source_.push_back(&keyframe);
     }
   }
 
   void forget_sightings() {
     sightings_.clear();
-    sources_.clear();
+    source_.clear();
   }
 
   /// The pose from the keyframes that are nearest to the expected one.
@@ -160,8 +156,8 @@ class KeyframePose {
 
   bool wants_keyframe(const Frame& current) const {
     const Frame& last = keyframes_.back();
-    std::size_t explained = 0;  // a feature is paired with one point of a keyframe
-    for (std::size_t i = 0; i < sources_.size(); ++i) explained += inlier_[i] != 0 && sources_[i].keyframe == &last;
+    std::size_t explained = 0;  // a feature is found once in a keyframe
+    for (std::size_t i = 0; i < source_.size(); ++i) explained += inlier_[i] != 0 && source_[i] == &last;
     return distance(last.world_from_camera, current.world_from_camera) > options.keyframe_motion ||
            static_cast<double>(explained) < options.keyframe_share * static_cast<double>(count_depths(current));
   }
@@ -173,9 +169,9 @@ class KeyframePose {
 
   Camera camera_;
   std::deque<Frame> keyframes_;
-  std::vector<FeaturePair> pairs_;
+  std::vector<FoundAgain> found_;
   std::vector<PointSighting> sightings_;
-  std::vector<Source> sources_;
+  std::vector<const Frame*> source_;  ///< which keyframe each sighting's point is from
   std::vector<std::uint8_t> inlier_;
   Pose camera_from_world_ = Pose::Identity();
   Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "keyframe.hpp"
+#include "feature_weights.hpp"
 #include "keyframe_pose.hpp"
 #include "optical_flow.hpp"
 #include "stillpoint/core/compact.hpp"
@@ -70,8 +70,8 @@ class KltOdometry {
 
   std::optional<Pose> track(const stillpoint::FrameView& frame, const TrackedPoints& points) {
     last_ = points;
-    return pose.track(frame, points, [](const auto& keyframe, const auto& current, const Pose&, bool, auto& pairs) {
-      match(keyframe.features.ids, current.features.ids, pairs);
+    return pose.track(frame, points, [](const auto& keyframe, const auto& current, const Pose&, bool, auto& found) {
+      match(keyframe, current.features.ids, found);
     });
   }
 
@@ -127,12 +127,14 @@ class KltOdometry {
     }
   }
 
-  /// Both lists ascend.
-  static void match(const std::vector<std::uint64_t>& keyframe, const std::vector<std::uint64_t>& current,
-                    std::vector<FeaturePair>& pairs) {
-    for (std::size_t i = 0, k = 0; i < current.size() && k < keyframe.size();) {
-      if (current[i] == keyframe[k]) pairs.push_back({i, k});
-      const bool next_current = current[i] <= keyframe[k], next_keyframe = keyframe[k] <= current[i];
+  /// Both frames' ids ascend.
+  static void match(const PointFrame<TrackedPoints>& keyframe, const std::vector<std::uint64_t>& current,
+                    std::vector<FoundAgain>& found) {
+    const std::vector<std::uint64_t>& there = keyframe.features.ids;
+    for (std::size_t i = 0, k = 0; i < current.size() && k < there.size();) {
+      if (current[i] == there[k] && keyframe.depth_m[k] > 0)
+        found.push_back({i, keyframe.pixel[k], keyframe.depth_m[k]});
+      const bool next_current = current[i] <= there[k], next_keyframe = there[k] <= current[i];
       i += next_current;
       k += next_keyframe;
     }

@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "keyframe.hpp"
 #include "keyframe_pose.hpp"
+#include "orb_features.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -58,8 +58,8 @@ class OrbOdometry {
   }
 
   std::optional<Pose> track(const stillpoint::FrameView& frame, const OrbFeatures& features) {
-    const OrbFeatures own{features.keypoints, features.descriptors.clone(), features.weights};
-    return pose.track(frame, own, [this](auto&&... arguments) { match(arguments...); });
+    OrbFeatures own{features.keypoints, features.descriptors.clone(), features.weights};
+    return pose.track(frame, std::move(own), [this](auto&&... arguments) { match(arguments...); });
   }
 
  private:
@@ -91,7 +91,7 @@ class OrbOdometry {
   /// The points of a keyframe that are found again, each by the feature that is most like it; without an expected pose
   /// they are looked for in the whole image.
   void match(const Frame& keyframe, const Frame& current, const Pose& camera_from_world, bool is_lost,
-             std::vector<FeaturePair>& pairs) {
+             std::vector<FoundAgain>& again) {
     const stillpoint::Workspace::Scope scope(workspace_);
     const stillpoint::span<const stillpoint::Vector2f> pixels =
         stillpoint::read_pixels(current.features.keypoints, pixels_);
@@ -128,7 +128,8 @@ class OrbOdometry {
       found[best] = k;
     }
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i] < keyframe.depth_m.size()) pairs.push_back({i, found[i]});
+      if (found[i] < keyframe.depth_m.size())
+        again.push_back({i, keyframe.pixel[found[i]], keyframe.depth_m[found[i]]});
   }
 
   static int distance_bits(const OrbFeatures& a, std::size_t i, const OrbFeatures& b, std::size_t j) {

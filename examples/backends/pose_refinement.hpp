@@ -32,6 +32,7 @@ struct PointSighting {
   double depth_sigma_m = 0.0;
   Vector3d p_sigma_m = Vector3d::Zero();  ///< one standard deviation of `p_world` along the ray it was measured on
   double weight = 1.0;                    ///< what it may say: times its squared error
+  std::size_t feature = 0;                ///< of the frame: several points may have been found by one
 };
 
 /// Finds the pose that explains the sightings best: least squares of pixel and depth errors, whitened by the
@@ -65,6 +66,13 @@ class PoseRefinement {
       }
     }
     return inliers;
+  }
+
+  /// How badly all sightings fit a pose, the outliers too: minus the logarithm of their likelihood but for a constant,
+  /// by which poses can be compared.
+  double misfit(span<const PointSighting> sightings, const Camera& camera, const Pose& camera_from_world) {
+    whiten(sightings, camera, camera_from_world);
+    return cost(sightings, camera, std::vector<std::uint8_t>(sightings.size(), 1), camera_from_world);
   }
 
  private:

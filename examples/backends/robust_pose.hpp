@@ -7,8 +7,10 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core/mat.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "pose_refinement.hpp"
@@ -18,8 +20,7 @@
 
 namespace examples {
 
-/// The pose that most sightings agree with within `reprojection_px`. Equal sightings give equal bytes: solvePnPRansac
-/// seeds its own generator on every call.
+/// The pose that most sightings agree with within `reprojection_px`.
 /// @param camera_from_world  changed only where there is one
 /// @return                   whether there is one
 inline bool pose_by_ransac(span<const PointSighting> sightings, const Camera& camera, double reprojection_px,
@@ -41,17 +42,24 @@ inline bool pose_by_ransac(span<const PointSighting> sightings, const Camera& ca
   return true;
 }
 
-/// The world and a mover may both explain many sightings: near the expected pose lies the world. So the pose that the
-/// search finds from there is taken if a fair share of the sightings fits it; RANSAC is asked only where it does not.
-/// Equal sightings give equal bytes: solvePnPRansac seeds its own generator on every call.
+/// Metres plus radians: how far two views are apart.
+inline double distance(const Pose& world_from_a, const Pose& world_from_b) {
+  const Pose a_from_b = world_from_a.inverse() * world_from_b;
+  return a_from_b.translation().norm() + stillpoint::rotation_angle(a_from_b.linear());
+}
+
+/// The world and a mover may both explain many features: near the expected pose lies the world. So the pose that the
+/// search finds from there is taken as long as it stays near and a fair share of the features fits it; if not, the
+/// likelier of it and RANSAC's. Equal sightings give equal bytes: solvePnPRansac seeds its own generator on every call.
 class RobustPose {
  public:
   struct Options {
+    double reach = 0.1;            ///< metres plus radians: twice what a hand leaves a constant velocity by at 30 Hz
     double reprojection_px = 3.0;  ///< inlier limit of RANSAC
     int iterations = 200;          ///< of RANSAC, at most
     double confidence = 0.999;     ///< that RANSAC has drawn right sightings alone once
-    std::size_t fewest = 12;       ///< fewer sightings that fit are no pose
-    double expected_share = 0.3;   ///< of the sightings must fit: the expected pose's neighbour, or else RANSAC's pose
+    std::size_t fewest = 12;       ///< fewer features that fit are no pose
+    double fewest_share = 0.3;     ///< of the features that were found again must fit: fewer are no pose
   };
   Options options;
   PoseRefinement refine;
@@ -61,20 +69,47 @@ class RobustPose {
   /// @return                   whether there is a pose
   bool operator()(span<const PointSighting> sightings, const Camera& camera, Pose& camera_from_world,
                   std::vector<std::uint8_t>& inlier) {
-    inlier.assign(sightings.size(), 0);
-    if (sightings.size() < options.fewest) return false;
+    inlier.assign(sightings.size(), 1);
+    const std::size_t found = count_features(sightings, inlier);
+    const auto is_enough = [&] {
+      const std::size_t fitting = count_features(sightings, inlier);
+      return fitting >= options.fewest &&
+             static_cast<double>(fitting) >= options.fewest_share * static_cast<double>(found);
+    };
+    if (found < options.fewest) return false;
     Pose pose = camera_from_world;
-    std::size_t fitting = refine(sightings, camera, pose, inlier);
-    const double enough = options.expected_share * static_cast<double>(sightings.size());  // even if RANSAC's fits all
-    if (!(static_cast<double>(fitting) >= enough)) {
-      if (!pose_by_ransac(sightings, camera, options.reprojection_px, options.iterations, options.confidence, pose))
-        return false;
-      fitting = refine(sightings, camera, pose, inlier);
-    }
-    if (fitting < options.fewest || static_cast<double>(fitting) < enough) return false;
+    refine(sightings, camera, pose, inlier);
+    const bool is_near = distance(pose.inverse(), camera_from_world.inverse()) < options.reach;
+    if (!is_near || !is_enough()) prefer_ransac(sightings, camera, pose, inlier);
+    if (!is_enough()) return false;
     camera_from_world = pose;
     return true;
   }
+
+ private:
+  /// Takes RANSAC's pose if it is the likelier.
+  void prefer_ransac(span<const PointSighting> sightings, const Camera& camera, Pose& pose,
+                     std::vector<std::uint8_t>& inlier) {
+    Pose sampled;
+    if (!pose_by_ransac(sightings, camera, options.reprojection_px, options.iterations, options.confidence, sampled))
+      return;
+    refine(sightings, camera, sampled, inlier_of_sampled_);
+    if (!(refine.misfit(sightings, camera, sampled) < refine.misfit(sightings, camera, pose))) return;
+    pose = sampled;
+    std::swap(inlier, inlier_of_sampled_);
+  }
+
+  /// To how many features the flagged sightings belong.
+  std::size_t count_features(span<const PointSighting> sightings, const std::vector<std::uint8_t>& flags) {
+    feature_.clear();
+    for (std::size_t i = 0; i < sightings.size(); ++i)
+      if (flags[i] != 0) feature_.push_back(sightings[i].feature);
+    std::sort(feature_.begin(), feature_.end());
+    return static_cast<std::size_t>(std::unique(feature_.begin(), feature_.end()) - feature_.begin());
+  }
+
+  std::vector<std::uint8_t> inlier_of_sampled_;
+  std::vector<std::size_t> feature_;
 };
 
 }  // namespace examples
