@@ -9,18 +9,16 @@
 #include <cstdint>
 #include <vector>
 
+#include "sightings.hpp"
 #include "stillpoint/core/random.hpp"
 
 namespace {
 
 using examples::PointSighting;
 using examples::PoseRefinement;
-using stillpoint::Camera;
 using stillpoint::Pose;
 using stillpoint::Random;
 using stillpoint::Vector3d;
-
-Camera camera() { return Camera(525, 525, 319.5, 239.5, 640, 480); }
 
 Pose some_pose(Random& random) {
   Pose pose = Pose::Identity();
@@ -29,17 +27,6 @@ Pose some_pose(Random& random) {
   pose.translation() = Vector3d(small(), small(), small());
   return pose;
 }
-
-/// A point that `camera_from_world` sees somewhere in its picture, one to four metres away, with its exact depth.
-PointSighting sighting(Random& random, const Pose& camera_from_world) {
-  const Vector3d p = camera().back_project({640 * random.uniform(), 480 * random.uniform()}, 1 + 3 * random.uniform());
-  PointSighting result{camera_from_world.inverse() * p, camera().project(p)};
-  result.depth_m = p.z();
-  result.depth_sigma_m = 0.01;
-  return result;
-}
-
-double error_m(const Pose& found, const Pose& truth) { return (found.inverse() * truth).translation().norm(); }
 
 TEST(PoseRefinement, FindsThePoseOfExactSightings) {
   Random random(1);
