@@ -87,7 +87,7 @@ class SupportMotion {
 
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
     const bool explained =
-        problem.point_support(chosen.reference_from_current) > options.least_support * total_weight(points);
+        problem.point_support(chosen.reference_from_current) > options.least_support * problem.total_weight();
     if (!explained || !any_depth(matches)) return motion;
     motion.status = inverted ? Status::consensus_inverted : Status::ok;
     motion.inliers = problem.inliers(chosen.reference_from_current);
@@ -220,7 +220,7 @@ class SupportMotion {
     double to_beat = problem.point_support(past.reference_from_current);
     // What explains more than the past does has at least its share of inliers.
     const std::size_t trials =
-        required_trials(to_beat / total_weight(points), 3, options.confidence, options.max_trials);
+        required_trials(to_beat / problem.total_weight(), 3, options.confidence, options.max_trials);
     Random random(options.seed);
     std::optional<Pose> best;
     for (std::size_t trial = 0; trial < trials; ++trial) {
@@ -232,12 +232,6 @@ class SupportMotion {
       best = pose;
     }
     return best ? polish(*best, problem, kFarCutoffs) : Hypothesis{};
-  }
-
-  static double total_weight(span<const PointConstraint> points) {
-    double sum = 0;
-    for (const PointConstraint& point : points) sum += point.weight;
-    return sum;
   }
 
   /// Three metric matches, each accepted with the probability of its weight.

@@ -90,12 +90,18 @@ class SupportProblem {
     return squared_residual(point, point.frame == 0 ? pose : Pose(links_[point.frame] * pose), camera_);
   }
 
+  /// The support of a pose that all points fit exactly.
+  double total_weight() const {
+    double sum = 0;
+    for (const PointConstraint& point : points_) sum += point.weight;
+    return sum;
+  }
+
   /// Σ weight · (1 − squared residual / limit) over the inliers among the points.
   /// @param to_beat  counting ends where this cannot be reached any more
   double point_support(const Pose& pose, double to_beat = 0.0) const {
     spread(pose);
-    double left = 0, sum = 0;
-    for (const PointConstraint& point : points_) left += point.weight;
+    double left = total_weight(), sum = 0;
     for (std::size_t k = 0; k < points_.size() && !(sum + left < to_beat);) {
       const PointConstraint& point = points_[k];
       if (k + 1 < points_.size() && points_[k + 1].frame == point.frame) {
