@@ -78,7 +78,7 @@ TEST(RobustPose, FarFromTheExpectedPoseTheLikelierIsTaken) {
 
 // Eleven features that three keyframes know have 33 sightings that fit: fewer than twelve are no pose.
 TEST(RobustPose, FeaturesAreCountedNotSightings) {
-  for (const std::size_t features : {11, 12}) {
+  for (const std::size_t features : {std::size_t{11}, std::size_t{12}}) {
     Random random(7);
     std::vector<PointSighting> sightings;
     for (std::size_t i = 0; i < 3 * features; ++i) {
