@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <string>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "stillpoint/detectors/detector_options.hpp"
 #include "stillpoint/opencv.hpp"
 #include "unit/detectors/made_tensor.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 
@@ -227,9 +227,9 @@ TYPED_TEST_P(DetectorContract, WrongOptionsAreSaidAtConstruction) {
 
 TYPED_TEST_P(DetectorContract, WhatIsNoNetworkIsSaidAtConstruction) {
   expect_contains(error_of([&] { TypeParam("/no/such.onnx"); }), "/no/such.onnx: no such file");
-  const fs::path folder = testing::TempDir(), broken = folder / "stillpoint_broken.onnx";
-  expect_contains(error_of([&] { TypeParam detector(folder); }), "found a folder, expected a model");
-  std::ofstream(broken, std::ios::binary) << "this is no network";
+  const TemporaryFolder folder;
+  const fs::path broken = folder.write("broken.onnx", "this is no network");
+  expect_contains(error_of([&] { TypeParam detector(folder.path()); }), "found a folder, expected a model");
   const std::string refused = error_of([&] { TypeParam detector(broken); });
   expect_contains(refused, broken.string() + ": O");  // OpenCV, ONNX Runtime
   expect_contains(refused, " cannot read this network");

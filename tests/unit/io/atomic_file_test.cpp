@@ -8,10 +8,11 @@
 #include <filesystem>
 #include <string>
 
-#include "io_test_support.hpp"
-
 #if defined(__unix__)
 #include <sys/resource.h>
+
+#include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 #endif
 
 namespace stillpoint {

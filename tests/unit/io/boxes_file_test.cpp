@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "io_test_support.hpp"
+#include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {

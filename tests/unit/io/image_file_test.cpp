@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "io_test_support.hpp"
 #include "stillpoint/core/random.hpp"
+#include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {

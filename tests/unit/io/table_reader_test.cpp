@@ -6,7 +6,8 @@
 
 #include <string>
 
-#include "io_test_support.hpp"
+#include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {

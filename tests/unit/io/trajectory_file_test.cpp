@@ -8,8 +8,9 @@
 #include <limits>
 #include <string>
 
-#include "io_test_support.hpp"
 #include "stillpoint/core/random.hpp"
+#include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {

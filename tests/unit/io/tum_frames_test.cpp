@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "io_test_support.hpp"
 #include "stillpoint/core/random.hpp"
+#include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {

@@ -14,6 +14,7 @@
 
 #include "stillpoint/policies.hpp"
 #include "unit/error_of.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {
@@ -22,23 +23,14 @@ Camera any_camera() { return {500, 500, 319.5, 239.5, 640, 480}; }
 
 class OptionsFile : public testing::Test {
  protected:
-  void SetUp() override {
-    folder = std::filesystem::path(testing::TempDir()) /
-             (std::string("options_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder); }
-
   std::filesystem::path file(const std::string& text) const {
-    const std::filesystem::path path = folder / "options.yaml";
-    std::ofstream(path) << "%YAML:1.0\n---\n" << text;
-    return path;
+    return folder.write("options.yaml", "%YAML:1.0\n---\n" + text);
   }
   std::string error(const std::string& text) {
     return error_of([&] { read_options(file(text), filter); });
   }
 
-  std::filesystem::path folder;
+  TemporaryFolder folder;
   FrameFilter<> filter{any_camera()};
 };
 
@@ -73,7 +65,8 @@ using PolicySets = testing::Types<DefaultPolicies, PaperPolicies, PaperRigidPoli
 TYPED_TEST_SUITE(OptionsOf, PolicySets);
 
 TYPED_TEST(OptionsOf, EveryOptionSurvivesItsFile) {
-  const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "options_round_trip.yaml";
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "options.yaml";
   FrameFilter<TypeParam> original(any_camera()), restored(any_camera());
   const std::string defaults = options_as_yaml(original);
   Change change;
@@ -83,7 +76,6 @@ TYPED_TEST(OptionsOf, EveryOptionSurvivesItsFile) {
   write_options(path, original);
   read_options(path, restored);
   EXPECT_EQ(options_as_yaml(restored), changed);
-  std::filesystem::remove(path);
 }
 
 /// Converts to whatever a field is.
@@ -180,7 +172,7 @@ TEST_F(OptionsFile, DepthNoiseIsAModelAndItsParameters) {
 
 TEST_F(OptionsFile, SeedsKeepTheirSixtyFourBits) {
   filter.classifier.options.seed = 0xfedc'ba98'7654'3210u;
-  const std::filesystem::path path = folder / "seed.yaml";
+  const std::filesystem::path path = folder.path() / "seed.yaml";
   write_options(path, filter);
   FrameFilter<> restored(any_camera());
   read_options(path, restored);
@@ -188,7 +180,7 @@ TEST_F(OptionsFile, SeedsKeepTheirSixtyFourBits) {
 }
 
 TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
-  const std::string name = (folder / "options.yaml").string();
+  const std::string name = (folder.path() / "options.yaml").string();
   EXPECT_EQ(error("gate:\n   rate: 0.1\n").substr(0, name.size() + 56),
             name + ": gate.rate is unknown, expected one of false_positive_r");
   EXPECT_EQ(error("gait:\n   rate: 0.1\n").substr(0, name.size() + 48),
@@ -220,9 +212,9 @@ TEST_F(OptionsFile, NothingChangesWhereAnythingIsWrong) {
 }
 
 TEST_F(OptionsFile, FileThatIsNoneIsSaid) {
-  EXPECT_EQ(error_of([&] { read_options(folder / "none.yaml", filter); }),
-            (folder / "none.yaml").string() + ": no such file");
-  const std::filesystem::path text = folder / "text.yaml";
+  EXPECT_EQ(error_of([&] { read_options(folder.path() / "none.yaml", filter); }),
+            (folder.path() / "none.yaml").string() + ": no such file");
+  const std::filesystem::path text = folder.path() / "text.yaml";
   std::ofstream(text) << "gate = 3\n";
   EXPECT_NE(error_of([&] { read_options(text, filter); }), "");
 }

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What the tests of readers and writers share: a folder that goes away.
+// A folder for what a test writes, which goes away.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
-
-#include "unit/error_of.hpp"
 
 namespace stillpoint {
 
@@ -20,7 +19,8 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
-    const std::string name = std::string("stillpoint_") + test->test_suite_name() + "_" + test->name();
+    std::string name = std::string("stillpoint_") + test->test_suite_name() + "_" + test->name();
+    std::replace(name.begin(), name.end(), '/', '_');  // of typed tests
     // create_directory says whether it made the folder: two runs at once get two.
     for (int number = 0;; ++number) {
       path_ = std::filesystem::temp_directory_path() / (name + "_" + std::to_string(number));
