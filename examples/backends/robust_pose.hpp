@@ -80,8 +80,10 @@ class RobustPose {
     Pose pose = camera_from_world;
     refine(sightings, camera, pose, inlier);
     const bool is_near = distance(pose.inverse(), camera_from_world.inverse()) < options.reach;
-    if (!is_near || !is_enough()) prefer_ransac(sightings, camera, pose, inlier);
-    if (!is_enough()) return false;
+    if (!is_near || !is_enough()) {
+      prefer_ransac(sightings, camera, pose, inlier);
+      if (!is_enough()) return false;
+    }
     camera_from_world = pose;
     return true;
   }

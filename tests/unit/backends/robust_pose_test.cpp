@@ -25,56 +25,54 @@ Pose aside(double x_m) {
   return pose;
 }
 
-/// Sightings of the room, whose pose is the identity, then of a mover, which looks like `mover` meant for the camera.
-std::vector<PointSighting> room_and_mover(Random& random, int of_room, int of_mover, const Pose& mover) {
-  std::vector<PointSighting> sightings;
-  for (int i = 0; i < of_room + of_mover; ++i) {
-    sightings.push_back(sighting(random, i < of_room ? Pose::Identity() : mover));
-    sightings.back().feature = static_cast<std::size_t>(i);
+constexpr std::uint64_t kScenes = 20;
+
+/// A room, whose pose is the identity, and a mover, which looks like `mover_pose` meant for the camera.
+struct RoomAndMover {
+  int of_room, of_mover;
+  Pose mover_pose;
+
+  /// Of the room first. Another scene for each seed.
+  std::vector<PointSighting> sightings(std::uint64_t seed) const {
+    Random random(seed);
+    std::vector<PointSighting> result;
+    for (int i = 0; i < of_room + of_mover; ++i) {
+      result.push_back(sighting(random, i < of_room ? Pose::Identity() : mover_pose));
+      result.back().feature = static_cast<std::size_t>(i);
+    }
+    return result;
   }
-  return sightings;
+};
+
+/// From `expected` the pose of the room is found, or that of the mover, and what fits it.
+void expect_room(bool is_room, const RoomAndMover& scene, const Pose& expected) {
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    Pose pose = expected;
+    std::vector<std::uint8_t> inlier;
+    ASSERT_TRUE(RobustPose{}(scene.sightings(seed), camera(), pose, inlier)) << seed;
+    EXPECT_LT(error_m(pose, is_room ? Pose::Identity() : scene.mover_pose), 1e-3) << seed;
+    for (int i = 0; i < scene.of_room + scene.of_mover; ++i)
+      EXPECT_EQ(inlier[static_cast<std::size_t>(i)], (i < scene.of_room) == is_room ? 1 : 0) << seed;
+  }
 }
 
-TEST(RobustPose, NearTheExpectedPoseAMinorityIsEnough) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Random random(seed);
-    const std::vector<PointSighting> sightings = room_and_mover(random, 40, 60, aside(0.3));
-    Pose pose = aside(0.005);
-    std::vector<std::uint8_t> inlier;
-    ASSERT_TRUE(RobustPose{}(sightings, camera(), pose, inlier)) << seed;
-    EXPECT_LT(error_m(pose, Pose::Identity()), 1e-3) << seed;
-    for (std::size_t i = 0; i < inlier.size(); ++i) EXPECT_EQ(inlier[i], i < 40 ? 1 : 0) << seed;
-  }
-}
+TEST(RobustPose, NearTheExpectedPoseAMinorityIsEnough) { expect_room(true, {40, 60, aside(0.3)}, aside(0.005)); }
 
 // Expected a fifth of a metre off, the search ends at the mover, which two features in five fit, more than the share of
 // 0.3: but that is not near, and the room is likelier.
 TEST(RobustPose, WhatTheSearchRunsOffToIsComparedWithRansac) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Random random(seed);
-    const std::vector<PointSighting> sightings = room_and_mover(random, 60, 40, aside(0.6));
-    Pose pose = aside(0.8);
+  const RoomAndMover scene{60, 40, aside(0.6)};
+  for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
+    Pose searched = aside(0.8);
     std::vector<std::uint8_t> inlier;
-    examples::PoseRefinement search;
-    Pose searched = pose;
-    search(sightings, camera(), searched, inlier);
-    ASSERT_LT(error_m(searched, aside(0.6)), 1e-3) << seed;  // else this tests something else
-    ASSERT_TRUE(RobustPose{}(sightings, camera(), pose, inlier)) << seed;
-    EXPECT_LT(error_m(pose, Pose::Identity()), 1e-3) << seed;
+    examples::PoseRefinement{}(scene.sightings(seed), camera(), searched, inlier);
+    ASSERT_LT(error_m(searched, scene.mover_pose), 1e-3) << seed;  // else this tests something else
   }
+  expect_room(true, scene, aside(0.8));
 }
 
 // Neither is near, and the search ends at the mover, which most features fit: RANSAC finds it too.
-TEST(RobustPose, FarFromTheExpectedPoseTheLikelierIsTaken) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    Random random(seed);
-    const std::vector<PointSighting> sightings = room_and_mover(random, 30, 70, aside(0.6));
-    Pose pose = aside(0.8);
-    std::vector<std::uint8_t> inlier;
-    ASSERT_TRUE(RobustPose{}(sightings, camera(), pose, inlier)) << seed;
-    EXPECT_LT(error_m(pose, aside(0.6)), 1e-3) << seed;
-  }
-}
+TEST(RobustPose, FarFromTheExpectedPoseTheLikelierIsTaken) { expect_room(false, {30, 70, aside(0.6)}, aside(0.8)); }
 
 // Eleven features that three keyframes know have 33 sightings that fit: fewer than twelve are no pose.
 TEST(RobustPose, FeaturesAreCountedNotSightings) {
