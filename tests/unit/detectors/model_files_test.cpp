@@ -11,25 +11,18 @@
 
 #include "stillpoint/detectors/model_input_size.hpp"
 #include "unit/detectors/made_tensor.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// An empty folder of the test's own.
-fs::path folder() {
-  const fs::path folder = fs::path(testing::TempDir()) /
-                          (std::string("stillpoint_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
-}
-
 void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
 
 TEST(ModelFiles, TheOtherHalfIsFoundByItsName) {
-  const fs::path here = folder();
+  const TemporaryFolder folder;
+  const fs::path& here = folder.path();
   for (const char* name : {"net.weights", "net.cfg", "net.pb", "with.pb", "with.pbtxt", "net.onnx"})
     write(here / name, "");
   for (const char* name : {"net.weights", "net.cfg"}) {
@@ -44,7 +37,8 @@ TEST(ModelFiles, TheOtherHalfIsFoundByItsName) {
 }
 
 TEST(ModelFiles, ErrorsNameTheFile) {
-  const fs::path here = folder();
+  const TemporaryFolder folder;
+  const fs::path& here = folder.path();
   write(here / "alone.weights", "");
   write(here / "net.tflite", "");
   EXPECT_EQ(error_of([&] { find_model_files(here / "none.onnx"); }), (here / "none.onnx").string() + ": no such file");
@@ -56,7 +50,8 @@ TEST(ModelFiles, ErrorsNameTheFile) {
 }
 
 TEST(ModelInputSize, DarknetSaysItInItsFirstSection) {
-  const fs::path file = folder() / "net.cfg";
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "net.cfg";
   write(file, "[net]\r\n# width=1\n width = 320\nheight=192\n[convolutional]\nwidth=7\nheight=7\n");
   EXPECT_EQ(darknet_input_size(file).width, 320);
   EXPECT_EQ(darknet_input_size(file).height, 192);
@@ -85,7 +80,8 @@ TEST(ModelInputSize, OnnxSaysItInItsFirstPicture) {
   const std::string graph = field(5, std::string(1000, 'w')) + input("orig_target_sizes", {1, 2}) +
                             input("depth", {1, 1, 64, 64}) + input("image", {1, 3, 192, 320});
   const std::string model = integer(1, 8) + field(2, "a test") + field(7, graph);
-  const fs::path file = folder() / "net.onnx";
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "net.onnx";
   write(file, model);
   EXPECT_EQ(onnx_input_size(file).width, 320);
   EXPECT_EQ(onnx_input_size(file).height, 192);
