@@ -26,7 +26,7 @@ struct Correction {
   const char* then;  ///< what the filter does without it
 };
 
-inline constexpr std::array<Correction, 14> kCorrections = {{
+inline constexpr std::array<Correction, 15> kCorrections = {{
     {"whitened", "offsets in radians and metres, Eq. 9, in place of likelihoods"},
     {"calibrated", "the level is the mean score of what stands still, Eq. 10"},
     {"measured-noise", "matches support a motion within 0.1 px, not within the noise"},
@@ -38,6 +38,7 @@ inline constexpr std::array<Correction, 14> kCorrections = {{
     {"memory", "each frame is judged by itself; no suspicion either"},
     {"lost-features", "what no longer looks alike is no evidence"},
     {"past-hypothesis", "the motion is that with the most support, whatever went before"},
+    {"inertia", "the motion is what was seen, whatever the velocity was"},
     {"area-support", "the host's key points support the motion, not corners and surfaces by area"},
     {"depth-guard", "depth at the rounded pixel, edges and holes or not"},
     {"keep-floor", "all that moves is dropped, whatever is left"},
@@ -93,6 +94,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   if (without("standing-camera"))
     motion.standing.begins_share = motion.standing.majority_share = motion.standing.continues_share = 1.0;
   if (without("past-hypothesis")) motion.options.past_preference = std::numeric_limits<double>::infinity();
+  if (without("inertia")) motion.inertia.acceleration_m_s2 = 0.0;
   if (without("clusters")) {
     auto& clusters = filter.classifier.options;
     clusters.features_per_cluster = 10;

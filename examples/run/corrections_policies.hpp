@@ -57,8 +57,9 @@ struct SwitchedMotion {
 
   template <class Camera>
   void refine(stillpoint::Matches& matches, const stillpoint::Regions& regions, const Camera& camera,
-              stillpoint::Motion& motion, stillpoint::Workspace& workspace) const {
-    if (kind == Kind::support) support.refine(matches, regions, camera, motion, workspace);
+              const stillpoint::MotionPrior& prior, stillpoint::Motion& motion,
+              stillpoint::Workspace& workspace) const {
+    if (kind == Kind::support) support.refine(matches, regions, camera, prior, motion, workspace);
   }
 };
 

@@ -136,7 +136,7 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
   if (options.without("calibrated") && given("--false-positive-rate"))
     throw stillpoint::Error("--false-positive-rate: found with --without calibrated, whose level knows no rate");
   if (options.policies == "default" && options.ego_motion != "default")
-    for (const char* name : {"measured-noise", "past-hypothesis"})
+    for (const char* name : {"measured-noise", "past-hypothesis", "inertia"})
       if (options.without(name))
         throw stillpoint::Error("--without: found " + std::string(name) + " with --ego-motion " + options.ego_motion +
                                 ", expected --ego-motion default, whose correction it is");

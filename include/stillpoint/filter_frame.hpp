@@ -125,7 +125,7 @@ class FrameFilter : private PolicyContract<Policies> {
     });
     observe(*this, matches_, motion, timings);
     if (!motion.usable()) return motion.status;
-    look_back(*this, history_, frame, regions_, matches_, motion, workspace_, timings);
+    look_back(*this, history_, frame, regions_, expected, matches_, motion, workspace_, timings);
 
     const span<FeatureScore> scores = workspace_.take<FeatureScore>(matches_.size());
     const span<Label> labels = workspace_.take<Label>(matches_.size());

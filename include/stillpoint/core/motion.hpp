@@ -34,6 +34,9 @@ struct Motion {
 struct MotionPrior {
   std::optional<Pose> current_from_reference;
   bool standing = true;  ///< the camera stood when it was seen last; robots are switched on standing
+  std::optional<Pose> predicted =
+      std::nullopt;      ///< current_from_reference too: the host's word, else the mean velocity's
+  double elapsed_s = 0;  ///< since the reference frame; positive with a prediction
 };
 
 }  // namespace stillpoint

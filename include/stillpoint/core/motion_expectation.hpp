@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/mean_velocity.hpp"
 #include "stillpoint/core/motion.hpp"
 
 namespace stillpoint {
@@ -28,9 +29,15 @@ class MotionExpectation {
 
   /// @param timestamp_s  of the coming frame: the velocity is scaled to the time that has passed
   MotionPrior at(double timestamp_s) const {
-    if (said_) return {said_, standing_};
-    if (!last_motion_ || !last_timestamp_s_) return {std::nullopt, standing_};
-    return {scaled(*last_motion_, (timestamp_s - *last_timestamp_s_) / last_interval_s_), standing_};
+    MotionPrior prior;
+    prior.standing = standing_;
+    if (last_timestamp_s_) prior.elapsed_s = timestamp_s - *last_timestamp_s_;
+    if (said_)
+      prior.current_from_reference = said_;
+    else if (last_motion_ && last_timestamp_s_)
+      prior.current_from_reference = scaled(*last_motion_, prior.elapsed_s / last_interval_s_);
+    if (prior.elapsed_s > 0) prior.predicted = said_ ? said_ : mean_velocity_.during(prior.elapsed_s);
+    return prior;
   }
 
   /// A frame has come, and the camera moved so.
@@ -41,7 +48,8 @@ class MotionExpectation {
     world_from_last_.reset();
     said_.reset();
     last_motion_.reset();
-    if (!motion.usable()) return;
+    if (!motion.usable()) return mean_velocity_.forget();
+    if (last_interval_s_ > 0) mean_velocity_.add(motion.current_from_reference, last_interval_s_);
     last_motion_ = motion.current_from_reference;
     standing_ = motion.standing;
   }
@@ -50,6 +58,7 @@ class MotionExpectation {
 
  private:
   std::optional<Pose> said_;
+  MeanVelocity mean_velocity_;       // of the motions that were found; the host's own poses do not change it
   std::optional<Pose> last_motion_;  // what was done within last_interval_s_
   double last_interval_s_ = 0.0;
   bool standing_ = true;

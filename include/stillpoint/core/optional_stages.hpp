@@ -32,8 +32,8 @@ template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise
 
 template <class P, class Camera, class = void> struct refines : std::false_type {};
 template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
-    std::declval<Matches&>(), std::declval<const Regions&>(), std::declval<const Camera&>(), std::declval<Motion&>(),
-    std::declval<Workspace&>()))>> : std::true_type {};
+    std::declval<Matches&>(), std::declval<const Regions&>(), std::declval<const Camera&>(),
+    std::declval<const MotionPrior&>(), std::declval<Motion&>(), std::declval<Workspace&>()))>> : std::true_type {};
 
 template <class P, class = void> struct recalls : std::false_type {};
 template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
@@ -81,7 +81,7 @@ void observe(Stages& stages, const Matches& matches, const Motion& motion, Timin
 /// seen there.
 template <class Stages>
 void look_back(Stages& stages, const FrameHistory& history, const FrameView& frame, const Regions& regions,
-               Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
+               const MotionPrior& expected, Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
   using StageCamera = typename Stages::Camera;
   if constexpr (looks_back<typename Stages::Matcher, StageCamera, typename Stages::DepthNoise>::value) {
     timings.run(Stage::match, [&] {
@@ -89,7 +89,8 @@ void look_back(Stages& stages, const FrameHistory& history, const FrameView& fra
                                matches);
     });
     if constexpr (refines<typename Stages::EgoMotion, StageCamera>::value)
-      timings.run(Stage::motion, [&] { stages.ego_motion.refine(matches, regions, stages.camera, motion, workspace); });
+      timings.run(Stage::motion,
+                  [&] { stages.ego_motion.refine(matches, regions, stages.camera, expected, motion, workspace); });
   }
 }
 

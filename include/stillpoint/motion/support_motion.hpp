@@ -19,6 +19,7 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/inertia.hpp"
 #include "stillpoint/motion/kabsch.hpp"
 #include "stillpoint/motion/ransac.hpp"
 #include "stillpoint/motion/small_linear_algebra.hpp"
@@ -51,6 +52,7 @@ class SupportMotion {
   Options options;
   SupportConstraints constraints;  ///< noise and weights of what supports a motion
   StandingCamera standing;         ///< when has the camera no motion at all?
+  Inertia inertia;                 ///< what its velocity knows
 
   /// @return status ok, consensus_inverted, no_depth, too_few_matches or no_consensus.
   template <class Camera>
@@ -92,14 +94,17 @@ class SupportMotion {
     motion.status = inverted ? Status::consensus_inverted : Status::ok;
     motion.inliers = problem.inliers(chosen.reference_from_current);
     motion.current_from_reference = orthonormalized(chosen.reference_from_current.inverse());
-    motion.covariance = covariance(chosen.information);
+    Matrix6d information = chosen.information;
+    if (!motion.standing && inertia.applies(prior))
+      motion.current_from_reference = inertia.fuse(motion.current_from_reference, information, prior);
+    motion.covariance = covariance(information);
     return motion;
   }
 
   /// Refines the motion against all older frames at once: their poses to each other are known, so that one small motion
   /// of the current camera moves them all.
   template <class Camera>
-  void refine(Matches& matches, const Regions& regions, const Camera& camera, Motion& motion,
+  void refine(Matches& matches, const Regions& regions, const Camera& camera, const MotionPrior& prior, Motion& motion,
               Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     if (motion.standing && standing.since_older_frames(matches)) return;
@@ -115,11 +120,13 @@ class SupportMotion {
     if (trusted.information.isZero()) return;
     trusted.support = problem.support(trusted.reference_from_current);
     const Hypothesis chosen = with_suspects(trusted, kNearCutoffs, problem);
-    // New current from old current.
+    Matrix6d information = chosen.information;
     const Pose step = chosen.reference_from_current.inverse() * frames[0].reference_from_current;
-    motion.current_from_reference = orthonormalized(step * motion.current_from_reference);
-    motion.covariance = covariance(chosen.information);
-    const Pose back = step.inverse();
+    Pose refined = orthonormalized(step * motion.current_from_reference);
+    if (inertia.applies(prior)) refined = inertia.fuse(refined, information, prior);
+    const Pose back = motion.current_from_reference * refined.inverse();  // the old current camera from the new one
+    motion.current_from_reference = refined;
+    motion.covariance = covariance(information);
     for (OlderFrame& frame : frames)
       frame.reference_from_current = orthonormalized(frame.reference_from_current * back);
   }

@@ -129,6 +129,14 @@ void each_option(StandingCamera& standing, Visit& visit) {
 }
 
 template <class Visit>
+void each_option(Inertia& inertia, Visit& visit) {
+  visit("acceleration_m_s2", inertia.acceleration_m_s2);
+  visit("angular_acceleration_rad_s2", inertia.angular_acceleration_rad_s2);
+  visit.positive("correlated", inertia.correlated);
+  visit.positive("degrees_of_freedom", inertia.degrees_of_freedom);
+}
+
+template <class Visit>
 void each_option(SupportMotion& stage, Visit& visit) {
   visit.positive("inlier_sigmas", stage.options.inlier_sigmas);
   visit("max_trials", stage.options.max_trials);
@@ -144,6 +152,7 @@ void each_option(SupportMotion& stage, Visit& visit) {
   visit("seed", stage.options.seed);
   visit("constraints", stage.constraints);
   visit("standing", stage.standing);
+  visit("inertia", stage.inertia);
 }
 
 // score/, gate/

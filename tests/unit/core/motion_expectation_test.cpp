@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace stillpoint {
@@ -111,6 +112,36 @@ TEST(MotionExpectation, TheHostsPosesCorrectTheVelocity) {
   EXPECT_TRUE(expectation.at(1.2).current_from_reference->isApprox(shift(0.4))) << "the camera went left: points right";
   expectation.advance(1.2, motion(false));
   EXPECT_TRUE(expectation.at(1.3).current_from_reference->isApprox(shift(0.1))) << "it fell silent";
+}
+
+// 0.1 m within 0.1 s: 1 m/s. With e^(−0.1 / 0.1) of it left, 3 m/s pull the mean to 1 + 2 (1 − 1/e).
+TEST(MotionExpectation, ThePredictionIsTheMeanVelocitys) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  EXPECT_FALSE(expectation.at(1.1).predicted);
+  expectation.advance(1.1, motion(false));
+  EXPECT_TRUE(expectation.at(1.15).predicted->isApprox(shift(0.05)));
+  EXPECT_NEAR(expectation.at(1.15).elapsed_s, 0.05, 1e-12);
+  Motion faster = motion(false);
+  faster.current_from_reference = shift(0.3);
+  expectation.advance(1.2, faster);
+  EXPECT_TRUE(expectation.at(1.3).current_from_reference->isApprox(shift(0.3)));
+  EXPECT_NEAR(expectation.at(1.3).predicted->translation().x(), 0.1 + 0.2 * (1.0 - std::exp(-1.0)), 1e-9);
+  expectation.advance(1.3, motion(false, Status::no_consensus));
+  EXPECT_FALSE(expectation.at(1.4).predicted);
+}
+
+// A host that is led astray shall not take the filter's own velocity along; what an IMU says is better than any mean.
+TEST(MotionExpectation, ThePredictionIsTheHostsWordButNotItsPoses) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  expectation.feedback(shift(2.0));
+  expectation.advance(1.1, motion(false));
+  expectation.feedback(shift(1.6));
+  EXPECT_TRUE(expectation.at(1.2).current_from_reference->isApprox(shift(0.4)));
+  EXPECT_TRUE(expectation.at(1.2).predicted->isApprox(shift(0.1)));
+  expectation.expect(shift(0.25));
+  EXPECT_TRUE(expectation.at(1.2).predicted->isApprox(shift(0.25)));
 }
 
 TEST(MotionExpectation, PosesThatAreNotFiniteSayNothing) {

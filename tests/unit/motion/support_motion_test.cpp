@@ -317,6 +317,64 @@ TEST(SupportMotion, WhoFillsTheViewOfAStandingCameraDoesNotTakeItAlong) {
   }
 }
 
+// ---- The velocity ----
+
+/// What stands still is all in one corner of the picture and equally far: a turn looks like a shift.
+Matches corner_of_the_view(std::uint64_t seed) {
+  Random random(seed);
+  SceneOptions scene;
+  scene.pixel_noise_px = 0.5;
+  scene.near_m = 2.8;
+  scene.far_m = 3.2;
+  Matches matches = test::make_matches(kMotion, scene, random);
+  for (std::size_t i = 0; i < matches.size(); ++i)
+    if (matches.reference.undistorted[i].x() > 200.0 || matches.reference.undistorted[i].y() > 200.0)
+      matches.state[i] = MatchState::lost;
+  return matches;
+}
+
+/// As a hand leaves a constant velocity within a thirtieth of a second: 3 mm and 3 mrad along and about each axis.
+MotionPrior velocity_near(const Pose& truth, std::uint64_t seed) {
+  Random random(seed + 1000);
+  const auto some = [&random](double sigma) {
+    return Vector3d(sigma * random.gaussian(), sigma * random.gaussian(), sigma * random.gaussian());
+  };
+  const Vector3d turn = some(0.003), shift = some(0.003);
+  return {std::nullopt, false, test::pose_of(turn, shift) * truth, 1.0 / 30.0};
+}
+
+/// Corners of these scenes are wrong independently of each other.
+SupportMotion with_inertia() {
+  SupportMotion motion = policy();
+  motion.inertia.correlated = 1.0;
+  return motion;
+}
+
+TEST(SupportMotion, TheVelocityHelpsWhereLittleIsSeen) {
+  double without = 0, with = 0, covariance_without = 0, covariance_with = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    const Matches matches = corner_of_the_view(seed);
+    const Motion alone = estimate(matches, kMoved, with_inertia());
+    const Motion fused = estimate(matches, velocity_near(kMotion, seed), with_inertia());
+    without += test::translation_error(alone.current_from_reference, kMotion);
+    with += test::translation_error(fused.current_from_reference, kMotion);
+    covariance_without += alone.covariance.trace();
+    covariance_with += fused.covariance.trace();
+  }
+  EXPECT_LT(with, 0.5 * without);
+  EXPECT_LT(covariance_with, 0.5 * covariance_without);
+}
+
+TEST(SupportMotion, TheVelocityDoesNotMatterWhereMuchIsSeen) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Matches matches = scene_of(kMotion, seed, 0.2);
+    const Motion alone = estimate(matches, kMoved, with_inertia());
+    const Motion fused = estimate(matches, velocity_near(kMotion, seed), with_inertia());
+    EXPECT_LT(test::translation_error(fused.current_from_reference, alone.current_from_reference), 5e-4);
+    EXPECT_LT(test::rotation_error(fused.current_from_reference, alone.current_from_reference), 2e-4);
+  }
+}
+
 // ---- Refining against older frames ----
 
 /// A patch that looks alike.
@@ -359,9 +417,9 @@ struct LookedBack {
     motion.current_from_reference = matches.sightings.frames()[0].reference_from_current.inverse();
   }
 
-  void refine() {
+  void refine(const MotionPrior& prior = {}) {
     Workspace workspace;
-    policy().refine(matches, regions_of(matches), test::test_camera(), motion, workspace);
+    policy().refine(matches, regions_of(matches), test::test_camera(), prior, motion, workspace);
   }
 };
 
@@ -376,6 +434,25 @@ TEST(SupportMotion, RefinesAgainstAllOlderFramesAtOnce) {
   EXPECT_LT(test::translation_error(scene.motion.current_from_reference, scene.truth[0].inverse()), 1e-5)
       << "the frame to frame motion follows";
   EXPECT_GT(scene.motion.covariance.diagonal().minCoeff(), 0.0);
+}
+
+// A velocity that says what was refined changes nothing; one that says something else moves all older frames alike.
+TEST(SupportMotion, TheVelocityMovesOlderFramesToo) {
+  LookedBack alone(60), agreed(60), pulled(60);
+  alone.refine();
+  const auto prior = [](const Pose& pose) { return MotionPrior{std::nullopt, false, pose, 1e-3}; };  // all but sure
+  agreed.refine(prior(alone.motion.current_from_reference));
+  EXPECT_LT(test::translation_error(agreed.motion.current_from_reference, alone.motion.current_from_reference), 1e-9);
+  const Pose pull = test::pose_of({0.002, 0.001, 0}, {0.003, 0, 0.001});
+  pulled.refine(prior(pull * alone.motion.current_from_reference));
+  const Pose moved = pulled.motion.current_from_reference * alone.motion.current_from_reference.inverse();
+  EXPECT_GT(moved.translation().norm(), 1e-5);
+  for (std::size_t f = 0; f < 2; ++f) {
+    const Pose before = alone.matches.sightings.frames()[f].reference_from_current;
+    const Pose after = pulled.matches.sightings.frames()[f].reference_from_current;
+    EXPECT_LT(test::translation_error(after, before * moved.inverse()), 1e-9);
+    EXPECT_LT(test::rotation_error(after, before * moved.inverse()), 1e-9);
+  }
 }
 
 TEST(SupportMotion, RefinesByTheFiltersOwnCornersOnly) {
@@ -398,7 +475,7 @@ TEST(SupportMotion, TooFewSightingsLeaveTheMotionAsItIs) {
   Matches none;
   Motion motion;
   Workspace workspace;
-  policy().refine(none, regions_of(none), test::test_camera(), motion, workspace);
+  policy().refine(none, regions_of(none), test::test_camera(), MotionPrior{}, motion, workspace);
   EXPECT_TRUE(motion.current_from_reference.isApprox(Pose::Identity(), 0.0));
 }
 
@@ -429,7 +506,7 @@ struct StoodBack {
 
   void refine() {
     Workspace workspace;
-    policy().refine(matches, regions_of(matches), test::test_camera(), motion, workspace);
+    policy().refine(matches, regions_of(matches), test::test_camera(), MotionPrior{}, motion, workspace);
   }
 };
 

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How fast has the camera moved of late?
+
+#include <cmath>
+#include <optional>
+
+#include "stillpoint/core/geometry.hpp"
+
+namespace stillpoint {
+
+/// The velocity of the last tenth of a second: a recording that drops frames, or repeats them, makes each single step
+/// longer or shorter than it was.
+class MeanVelocity {
+ public:
+  static constexpr double kMemory_s = 0.1;
+
+  /// @param elapsed_s  within which the camera moved so, positive
+  void add(const Pose& current_from_reference, double elapsed_s) {
+    const double share = known_ ? 1.0 - std::exp(-elapsed_s / kMemory_s) : 1.0;
+    angular_rad_s_ += share * (vector_from_rotation(current_from_reference.linear()) / elapsed_s - angular_rad_s_);
+    linear_m_s_ += share * (current_from_reference.translation() / elapsed_s - linear_m_s_);
+    known_ = true;
+  }
+
+  /// current_from_reference after so long; nothing where nothing is known.
+  std::optional<Pose> during(double elapsed_s) const {
+    if (!known_) return std::nullopt;
+    Pose pose = Pose::Identity();
+    pose.linear() = rotation_from_vector(elapsed_s * angular_rad_s_);
+    pose.translation() = elapsed_s * linear_m_s_;
+    return pose;
+  }
+
+  void forget() noexcept { *this = MeanVelocity(); }
+
+ private:
+  Vector3d angular_rad_s_ = Vector3d::Zero(), linear_m_s_ = Vector3d::Zero();
+  bool known_ = false;
+};
+
+}  // namespace stillpoint
