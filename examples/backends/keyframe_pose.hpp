@@ -49,9 +49,10 @@ class KeyframePose {
     double pixel_sigma = 0.7;           ///< of a feature that was found again
     double depth_sigma_factor = 3.0;    ///< times KinectNoise: depth and colour are not taken at the same moment
     DepthLimits depth_limits;
-    double keyframe_share = 0.6;    ///< a new keyframe where the last explains less of the features with depth
-    double keyframe_motion = 0.15;  ///< or the camera has moved this far: metres plus radians
-    int patience = 15;              ///< frames without a pose; then it begins anew where it was lost
+    double keyframe_share = 0.6;           ///< a new keyframe where the last explains less of the features with depth
+    double keyframe_motion = 0.15;         ///< or the camera has moved this far: metres plus radians
+    std::size_t fewest_for_velocity = 80;  ///< features that must have fitted for the own velocity to be believed
+    int patience = 15;                     ///< frames without a pose; then it begins anew where it was lost
   };
   Options options;
   stillpoint::KinectNoise depth_noise;
@@ -61,14 +62,19 @@ class KeyframePose {
 
   const Camera& camera() const { return camera_; }
 
+  /// What somebody else knows of the motion from the last frame to the coming one, such as the filter. Holds for that
+  /// one, and is taken where the own velocity says little: the camera is lost, or few features fitted its last pose.
+  void expect_motion(const Pose& current_from_last) { told_ = current_from_last; }
+
   /// @param match  called as match(keyframe, current, camera_from_world, is_lost, found) and appends to `found`;
   ///               camera_from_world is the expected pose, which says nothing where the camera is lost
   /// @return world_from_camera. Nothing where too few features fit, or before a first frame with depth.
   template <class Match>
   std::optional<Pose> track(const stillpoint::FrameView& frame, Features features, Match&& match) {
     Frame current = prepare(frame, std::move(features));
+    add_up_told_motion();
     if (keyframes_.empty()) return begin(std::move(current));
-    Pose camera_from_world = stillpoint::orthonormalized(motion_ * camera_from_world_);
+    Pose camera_from_world = stillpoint::orthonormalized(expected_motion() * camera_from_world_);
     if (!solve_near(current, match, camera_from_world) && !relocalize(current, match, camera_from_world)) {
       motion_ = Pose::Identity();
       if (++misses_ <= options.patience) return std::nullopt;
@@ -77,6 +83,8 @@ class KeyframePose {
     }
     motion_ = misses_ > 0 ? Pose::Identity() : camera_from_world * camera_from_world_.inverse();
     misses_ = 0;
+    fitted_ = solve.fitting();
+    told_since_pose_ = Pose::Identity();
     camera_from_world_ = camera_from_world;
     current.world_from_camera = camera_from_world.inverse();
     const Pose world_from_camera = current.world_from_camera;
@@ -99,8 +107,25 @@ class KeyframePose {
     if (count_depths(current) < solve.options.fewest) return std::nullopt;
     current.world_from_camera = camera_from_world_.inverse();
     misses_ = 0;
+    fitted_ = 0;
+    told_since_pose_ = Pose::Identity();
     remember(std::move(current));
     return keyframes_.back().world_from_camera;
+  }
+
+  /// Frame by frame since the last pose; nothing any more where one frame was told nothing.
+  void add_up_told_motion() {
+    if (!told_)
+      told_since_pose_.reset();
+    else if (told_since_pose_)
+      told_since_pose_ = stillpoint::orthonormalized(*told_ * *told_since_pose_);
+    told_.reset();
+  }
+
+  /// Since the last pose.
+  const Pose& expected_motion() const {
+    const bool has_velocity = misses_ == 0 && fitted_ >= options.fewest_for_velocity;
+    return told_since_pose_ && !has_velocity ? *told_since_pose_ : motion_;
   }
 
   double depth_sigma(double depth_m) const { return options.depth_sigma_factor * depth_noise.sigma(depth_m); }
@@ -175,7 +200,10 @@ class KeyframePose {
   std::vector<std::uint8_t> inlier_;
   Pose camera_from_world_ = Pose::Identity();
   Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose
-  int misses_ = 0;                  ///< frames in a row without a pose
+  std::optional<Pose> told_;        ///< of the coming frame
+  std::optional<Pose> told_since_pose_;
+  std::size_t fitted_ = 0;  ///< features that fitted the last pose
+  int misses_ = 0;          ///< frames in a row without a pose
 };
 
 }  // namespace examples

@@ -68,6 +68,8 @@ class KltOdometry {
     return points;
   }
 
+  void expect_motion(const Pose& current_from_last) { pose.expect_motion(current_from_last); }
+
   std::optional<Pose> track(const stillpoint::FrameView& frame, const TrackedPoints& points) {
     last_ = points;
     return pose.track(frame, points, [](const auto& keyframe, const auto& current, const Pose&, bool, auto& found) {

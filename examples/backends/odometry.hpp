@@ -57,6 +57,8 @@ class RgbdOdometry {
     return features;
   }
 
+  void expect_motion(const Pose& current_from_last) { pose.expect_motion(current_from_last); }
+
   std::optional<Pose> track(const stillpoint::FrameView& frame, const OrbFeatures& features) {
     return pose.track(frame, prepare(frame, features),
                       [this](const Frame& keyframe, const Frame& current, const Pose& camera_from_world, bool is_lost,

@@ -57,6 +57,8 @@ class OrbOdometry {
     return features;
   }
 
+  void expect_motion(const Pose& current_from_last) { pose.expect_motion(current_from_last); }
+
   std::optional<Pose> track(const stillpoint::FrameView& frame, const OrbFeatures& features) {
     OrbFeatures own{features.keypoints, features.descriptors.clone(), features.weights};
     return pose.track(frame, std::move(own), [this](auto&&... arguments) { match(arguments...); });

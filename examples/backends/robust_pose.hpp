@@ -72,9 +72,9 @@ class RobustPose {
     inlier.assign(sightings.size(), 1);
     const std::size_t found = count_features(sightings, inlier);
     const auto is_enough = [&] {
-      const std::size_t fitting = count_features(sightings, inlier);
-      return fitting >= options.fewest &&
-             static_cast<double>(fitting) >= options.fewest_share * static_cast<double>(found);
+      fitting_ = count_features(sightings, inlier);
+      return fitting_ >= options.fewest &&
+             static_cast<double>(fitting_) >= options.fewest_share * static_cast<double>(found);
     };
     if (found < options.fewest) return false;
     Pose pose = camera_from_world;
@@ -87,6 +87,9 @@ class RobustPose {
     camera_from_world = pose;
     return true;
   }
+
+  /// Features that fit the pose that was found last.
+  std::size_t fitting() const { return fitting_; }
 
  private:
   /// Takes RANSAC's pose if it is the likelier.
@@ -110,6 +113,7 @@ class RobustPose {
     return static_cast<std::size_t>(std::unique(feature_.begin(), feature_.end()) - feature_.begin());
   }
 
+  std::size_t fitting_ = 0;
   std::vector<std::uint8_t> inlier_of_sampled_;
   std::vector<std::size_t> feature_;
 };

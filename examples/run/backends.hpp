@@ -82,6 +82,8 @@ class AnyTracker {
     return run(track_ms, [&] { return tracker_->track(frame, *features.arrays); });
   }
 
+  void expect_motion(const stillpoint::Pose& current_from_last) { tracker_->expect_motion(current_from_last); }
+
   double extract_ms = 0.0;  ///< of the last frame
   double track_ms = 0.0;
 
@@ -89,6 +91,7 @@ class AnyTracker {
   struct Concept {
     virtual ~Concept() = default;
     virtual Features extract(const stillpoint::FrameView& frame) = 0;
+    virtual void expect_motion(const stillpoint::Pose& current_from_last) = 0;
     virtual std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) = 0;
   };
 
@@ -112,6 +115,9 @@ class AnyTracker {
       features.keypoints = arrays->features.keypoints;
       features.arrays = std::move(arrays);
       return features;
+    }
+    void expect_motion(const stillpoint::Pose& current_from_last) override {
+      if constexpr (stillpoint::has_expect_motion<Backend>::value) backend.expect_motion(current_from_last);
     }
     std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) override {
       return backend.track(frame, static_cast<const Arrays&>(arrays).features);

@@ -16,14 +16,18 @@
 // |          | void weigh(span<const float> weights)                  | optional: what each may say, before `compact` |
 // | Backend  | std::optional<Pose> track(const FrameView&,            | world_from_camera of that frame, or nothing:  |
 // |          |                           const Features&)             | the next frame is tried anew                  |
+// | Backend  | void expect_motion(const Pose& current_from_reference) | optional, before `track`: the filter's own    |
+// |          |                                                        | motion since the last frame, in metres        |
 // | Backend  | void feedback(const Pose& world_from_camera)           | optional: the pose it returned                |
 // | Filter   | Result filter_frame(const FrameView&,                  | judges them; may return a reference           |
 // |          |                     const Keypoints&)                  |                                               |
 // | Result   | keep(), converts to span<const std::uint8_t>           | one byte a key point, 0 drops                 |
+// | Result   | const Motion& motion()                                 | optional: what `expect_motion` is told        |
 // | Filter   | void feedback(const Pose& world_from_camera)           | optional: helps to predict                    |
 // clang-format on
 //
-// Each is called once a frame, in the order of `track` below, `feedback` only where there is a pose.
+// Each is called once a frame, in the order of `track` below, `feedback` only where there is a pose, `expect_motion`
+// only where the filter knows the motion and its length.
 
 #include <cstdint>
 #include <optional>
@@ -34,6 +38,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/keypoint.hpp"
+#include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/verdict/output_modes.hpp"
 
@@ -70,6 +75,14 @@ template <class F, class Features, class = void> struct has_filter_frame : std::
 template <class F, class Features> struct has_filter_frame<F, Features, std::enable_if_t<std::is_convertible_v<decltype(
     std::declval<F&>().filter_frame(std::declval<const FrameView&>(), std::declval<const Features&>().keypoints).keep()),
     span<const std::uint8_t>>>> : std::true_type {};
+
+template <class B, class = void> struct has_expect_motion : std::false_type {};
+template <class B> struct has_expect_motion<B, std::void_t<decltype(
+    std::declval<B&>().expect_motion(std::declval<const Pose&>()))>> : std::true_type {};
+
+template <class R, class = void> struct has_motion : std::false_type {};
+template <class R> struct has_motion<R, std::enable_if_t<std::is_convertible_v<decltype(
+    std::declval<const R&>().motion()), const Motion&>>> : std::true_type {};
 
 template <class T, class = void> struct has_feedback : std::false_type {};
 template <class T> struct has_feedback<T, std::void_t<decltype(
@@ -150,6 +163,7 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
       observe(std::as_const(features.keypoints), result);
       weigh(result, features);
       features.compact(result.keep());
+      tell_motion(result);
       const std::optional<Pose> world_from_camera = backend.track(frame, features);
       if (world_from_camera) feed_back(*world_from_camera);
       return world_from_camera;
@@ -164,6 +178,14 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
     if constexpr (has_weigh<Features>::value && has_weights<Result>::value) {
       weights(result, weights_);
       features.weigh(span<const float>(weights_));
+    }
+  }
+
+  template <class Result>
+  void tell_motion(const Result& result) {
+    if constexpr (has_expect_motion<Backend>::value && has_motion<Result>::value) {
+      const Motion& motion = result.motion();
+      if (motion.usable() && motion.metric) backend.expect_motion(motion.current_from_reference);
     }
   }
 

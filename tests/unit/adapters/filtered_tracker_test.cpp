@@ -20,9 +20,11 @@ namespace {
 
 using stillpoint::FilteredTracker;
 using stillpoint::FrameView;
+using stillpoint::Motion;
 using stillpoint::NullFilter;
 using stillpoint::Pose;
 using stillpoint::span;
+using stillpoint::Status;
 using stillpoint::Vector2f;
 
 using Log = std::shared_ptr<std::vector<std::string>>;
@@ -56,7 +58,7 @@ struct MockBackend {
   Log log = std::make_shared<std::vector<std::string>>();
   std::optional<Pose> pose = at_x(1.0);
   Features tracked;
-  std::vector<double> feedback_x_m;
+  std::vector<double> feedback_x_m, expected_x_m;
 
   Features extract(const FrameView&) {
     log->push_back("extract");
@@ -75,6 +77,11 @@ struct MockBackend {
     return pose;
   }
 
+  void expect_motion(const Pose& current_from_reference) {
+    log->push_back("backend.expect_motion");
+    expected_x_m.push_back(current_from_reference.translation().x());
+  }
+
   void feedback(const Pose& world_from_camera) {
     log->push_back("backend.feedback");
     feedback_x_m.push_back(world_from_camera.translation().x());
@@ -83,7 +90,9 @@ struct MockBackend {
 
 struct MockResult {
   std::vector<std::uint8_t> flags;
+  Motion found;
   span<const std::uint8_t> keep() const { return flags; }
+  const Motion& motion() const { return found; }
 };
 
 /// The weight of each is a quarter of its place.
@@ -95,11 +104,12 @@ void weights(const MockResult& result, std::vector<float>& found) {
 struct MockFilter {
   Log log;
   std::vector<std::uint8_t> flags{1, 0, 1, 0, 1};
+  Motion motion;
   std::vector<double> feedback_x_m;
 
   MockResult filter_frame(const FrameView&, const std::vector<Vector2f>&) {
     log->push_back("filter_frame");
-    return {flags};
+    return {flags, motion};
   }
 
   void feedback(const Pose& world_from_camera) {
@@ -161,6 +171,30 @@ TEST(FilteredTracker, ReturnsThePoseAndFeedsItBackToBothSides) {
   EXPECT_EQ(pose->translation().x(), 1.0);
   EXPECT_EQ(tracker.filter.feedback_x_m, std::vector<double>{1.0});
   EXPECT_EQ(tracker.backend.feedback_x_m, std::vector<double>{1.0});
+}
+
+TEST(FilteredTracker, TellsTheBackendTheFiltersMotion) {
+  auto tracker = mock_tracker();
+  tracker.filter.motion.status = Status::ok;
+  tracker.filter.motion.current_from_reference = at_x(0.25);
+  tracker.track(FrameView{});
+  EXPECT_EQ(tracker.backend.expected_x_m, std::vector<double>{0.25});
+  const std::vector<std::string> expected{"extract",         "filter_frame",          "weigh",
+                                          "compact",         "backend.expect_motion", "track",
+                                          "filter.feedback", "backend.feedback"};
+  EXPECT_EQ(*tracker.backend.log, expected);
+}
+
+TEST(FilteredTracker, TellsTheBackendNoMotionThatIsNone) {
+  auto tracker = mock_tracker();
+  for (const Status status : {Status::first_frame, Status::no_depth, Status::no_consensus}) {
+    tracker.filter.motion.status = status;
+    tracker.track(FrameView{});
+  }
+  tracker.filter.motion.status = Status::ok;
+  tracker.filter.motion.metric = false;  // nobody knows how long it is
+  tracker.track(FrameView{});
+  EXPECT_TRUE(tracker.backend.expected_x_m.empty());
 }
 
 TEST(FilteredTracker, TellsTheFilterNothingThatIsNotToBelieveTheBackend) {
