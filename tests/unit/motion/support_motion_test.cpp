@@ -314,6 +314,8 @@ TEST(SupportMotion, WhoFillsTheViewOfAStandingCameraDoesNotTakeItAlong) {
     EXPECT_TRUE(is_identity(motion.current_from_reference));
     EXPECT_GE(motion.inliers, 40) << "the wall";
     EXPECT_FALSE(estimate(matches, kMoved).standing) << "a camera that moved does not stop for a fifth of the view";
+    const MotionPrior velocity{std::nullopt, true, test::pose_of({0, 0.001, 0}, {0.002, 0, 0}), 1.0 / 30.0};
+    EXPECT_TRUE(is_identity(estimate(matches, velocity).current_from_reference)) << "nor does a velocity move it";
   }
 }
 
