@@ -17,7 +17,8 @@ struct Motion {
   Status status = Status::first_frame;
   Pose current_from_reference = Pose::Identity();  ///< metres
   /// Of a small rotation (radians, first three) and translation (metres, last three) applied after the pose, in the
-  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v.
+  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v. As if corners were wrong independently of each
+  /// other: on recordings true errors are some three and a half times as large (`Inertia::correlated`).
   Matrix6d covariance = Matrix6d::Zero();
   double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
   bool metric = true;      ///< false: nobody knows the scale; the translation is a direction of length 1, or zero
@@ -34,9 +35,8 @@ struct Motion {
 struct MotionPrior {
   std::optional<Pose> current_from_reference;
   bool standing = true;  ///< the camera stood when it was seen last; robots are switched on standing
-  std::optional<Pose> predicted =
-      std::nullopt;      ///< current_from_reference too: the host's word, else the mean velocity's
-  double elapsed_s = 0;  ///< since the reference frame; positive with a prediction
+  std::optional<Pose> predicted = std::nullopt;  ///< by the host, else by the mean velocity
+  double elapsed_s = 0;                          ///< since the reference frame; positive with a prediction
 };
 
 }  // namespace stillpoint

@@ -19,7 +19,7 @@ struct Inertia {
   double acceleration_m_s2 = 3.0;            ///< standard deviation along each axis, of a camera held by hand; 0: none
   double angular_acceleration_rad_s2 = 3.0;  ///< the same about each axis
   /// Constraints that say no more than one independent one would: neighbours share errors of depth, of blur, of a
-  /// rolling shutter. The mean of error² over variance on recordings; 1 in synthetic scenes.
+  /// rolling shutter. The median of error² over variance on recordings; 1 in synthetic scenes.
   double correlated = 12.0;
   double degrees_of_freedom = 10.0;  ///< of Student's t: jolts are rare and then large
 
@@ -37,6 +37,7 @@ struct Inertia {
     Vector6d expected;  // after the motion that was found
     expected << vector_from_rotation(off.linear()), off.translation();
     Matrix6d velocity = information_of(prior.elapsed_s);
+    if (!velocity.allFinite()) return current_from_reference;  // no time has passed
     velocity *= weight(expected, velocity, information);
     information += velocity;
     const Vector6d step = Cholesky<6>(information).solve(velocity * expected);

@@ -86,6 +86,15 @@ TEST(Inertia, KnowsLessTheLongerItWaits) {
   EXPECT_TRUE(sum.isApprox(information(256.0, 16.0), 1e-9));
 }
 
+TEST(Inertia, NoTimeIsNoReasonToMove) {
+  const Pose found = test::pose_of({0.1, 0, 0}, {1, 2, 3});
+  for (const double elapsed_s : {1e-200, 0.0}) {
+    Matrix6d sum = information(48.0, 3.0);
+    EXPECT_TRUE(by_hand(4.0).fuse(found, sum, predicted(Pose::Identity(), elapsed_s)).isApprox(found, 0.0));
+    EXPECT_TRUE(sum.isApprox(information(48.0, 3.0), 0.0));
+  }
+}
+
 TEST(Inertia, AppliesWhereThereIsAPredictionAndAMass) {
   Inertia inertia;
   EXPECT_TRUE(inertia.applies(predicted(Pose::Identity())));
