@@ -36,6 +36,7 @@ TEST(Documents, TheLinesOfTrackersAreTheLoopOfFilteredTracker) {
     stillpoint::weights(result, weights);
     features.weigh(weights);
     features.compact(result.keep());
+    if (result.motion().usable()) odometry.expect_motion(result.motion().current_from_reference);
     const std::optional<stillpoint::Pose> world_from_camera = odometry.track(frame, features);
     // clang-format on
     const std::optional<stillpoint::Pose> same = tracker.track(frame);

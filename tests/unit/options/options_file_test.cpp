@@ -141,7 +141,8 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
   EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>());
   EXPECT_EQ(visited(StandingCamera()), field_count<StandingCamera>());
-  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints and standing";
+  EXPECT_EQ(visited(Inertia()), field_count<Inertia>());
+  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 3) << "constraints, standing, inertia";
   EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
   EXPECT_EQ(visited(SightingScore()), field_count<SightingScore::Options>());
   EXPECT_EQ(visited(MeanGate()), field_count<MeanGate::Options>());
