@@ -82,9 +82,7 @@ class KeyframePose {
       return begin(std::move(current));
     }
     motion_ = misses_ > 0 ? Pose::Identity() : camera_from_world * camera_from_world_.inverse();
-    misses_ = 0;
-    fitted_ = solve.fitting();
-    told_since_pose_ = Pose::Identity();
+    count_from_here(solve.fitting());
     camera_from_world_ = camera_from_world;
     current.world_from_camera = camera_from_world.inverse();
     const Pose world_from_camera = current.world_from_camera;
@@ -106,11 +104,16 @@ class KeyframePose {
   std::optional<Pose> begin(Frame&& current) {
     if (count_depths(current) < solve.options.fewest) return std::nullopt;
     current.world_from_camera = camera_from_world_.inverse();
-    misses_ = 0;
-    fitted_ = 0;
-    told_since_pose_ = Pose::Identity();
+    count_from_here(0);
     remember(std::move(current));
     return keyframes_.back().world_from_camera;
+  }
+
+  /// There is a pose.
+  void count_from_here(std::size_t fitted) {
+    misses_ = 0;
+    fitted_ = fitted;
+    told_since_pose_ = Pose::Identity();
   }
 
   /// Frame by frame since the last pose; nothing any more where one frame was told nothing.

@@ -7,24 +7,17 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "backends/orb_features.hpp"
+#include "sightings.hpp"
 
 namespace {
 
-using examples::FoundAgain;
 using stillpoint::Pose;
-
-Pose shift(double x_m) {
-  Pose pose = Pose::Identity();
-  pose.translation().x() = x_m;
-  return pose;
-}
 
 /// A camera that stands two metres before a wall with 120 features, of which the test says how many are found again.
 class StandingTracker : public testing::Test {
@@ -56,22 +49,22 @@ class StandingTracker : public testing::Test {
 
   std::vector<std::uint16_t> depth_ = std::vector<std::uint16_t>(640 * 480, 10000);
   examples::OrbFeatures features_;
-  examples::KeyframePose<examples::OrbFeatures> tracker_{stillpoint::Camera(525, 525, 320, 240, 640, 480)};
+  examples::KeyframePose<examples::OrbFeatures> tracker_{camera()};
   std::optional<Pose> pose_;
 };
 
 TEST_F(StandingTracker, BelievesItsOwnVelocityWhereMuchFits) {
   track(100);
   ASSERT_TRUE(pose_);
-  tracker_.expect_motion(shift(0.05));
+  tracker_.expect_motion(aside(0.05));
   EXPECT_TRUE(track(100).isApprox(Pose::Identity(), 1e-6)) << "it stood";
 }
 
 TEST_F(StandingTracker, BelievesTheOtherWhereLittleFitted) {
   track(50);
   ASSERT_TRUE(pose_) << "50 of the 50 that were found";
-  tracker_.expect_motion(shift(0.05));
-  EXPECT_TRUE(track(100).isApprox(shift(0.05), 1e-6));
+  tracker_.expect_motion(aside(0.05));
+  EXPECT_TRUE(track(100).isApprox(aside(0.05), 1e-6));
   ASSERT_TRUE(pose_);
   EXPECT_TRUE(pose_->isApprox(Pose::Identity(), 1e-3)) << "an expectation, not the answer";
   EXPECT_TRUE(track(100).isApprox(Pose::Identity(), 1e-3)) << "for one frame";
@@ -80,25 +73,25 @@ TEST_F(StandingTracker, BelievesTheOtherWhereLittleFitted) {
 TEST_F(StandingTracker, AddsUpWhatItIsToldWhileItIsLost) {
   track(100);
   for (const double x_m : {0.02, 0.03}) {
-    tracker_.expect_motion(shift(x_m));
+    tracker_.expect_motion(aside(x_m));
     track(0);
     EXPECT_FALSE(pose_);
   }
-  tracker_.expect_motion(shift(0.04));
-  EXPECT_TRUE(track(0).isApprox(shift(0.09), 1e-6)) << "of the three frames since the last pose";
+  tracker_.expect_motion(aside(0.04));
+  EXPECT_TRUE(track(0).isApprox(aside(0.09), 1e-6)) << "of the three frames since the last pose";
 }
 
 TEST_F(StandingTracker, AFrameThatIsToldNothingEndsTheSum) {
   track(100);
-  tracker_.expect_motion(shift(0.02));
+  tracker_.expect_motion(aside(0.02));
   track(0);
   track(0);
-  tracker_.expect_motion(shift(0.04));
+  tracker_.expect_motion(aside(0.04));
   EXPECT_TRUE(track(100).isApprox(Pose::Identity(), 1e-6)) << "where it was last, for want of better";
   ASSERT_TRUE(pose_);
   track(50);
-  tracker_.expect_motion(shift(0.04));
-  EXPECT_TRUE(track(100).isApprox(shift(0.04), 1e-6)) << "found again, it listens again";
+  tracker_.expect_motion(aside(0.04));
+  EXPECT_TRUE(track(100).isApprox(aside(0.04), 1e-6)) << "found again, it listens again";
 }
 
 }  // namespace

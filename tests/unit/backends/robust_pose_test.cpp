@@ -19,12 +19,6 @@ using examples::RobustPose;
 using stillpoint::Pose;
 using stillpoint::Random;
 
-Pose aside(double x_m) {
-  Pose pose = Pose::Identity();
-  pose.translation().x() = x_m;
-  return pose;
-}
-
 constexpr std::uint64_t kScenes = 20;
 
 /// A room, whose pose is the identity, and a mover, which looks like `mover_pose` meant for the camera.

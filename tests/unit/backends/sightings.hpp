@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Points that a camera sees, drawn at random.
+// A camera, where it may stand, and points that it sees, drawn at random.
 
 #include "backends/pose_refinement.hpp"
 #include "stillpoint/core/random.hpp"
@@ -17,6 +17,13 @@ inline examples::PointSighting sighting(stillpoint::Random& random, const stillp
   result.depth_m = p.z();
   result.depth_sigma_m = 0.01;
   return result;
+}
+
+/// A pose to the side of the identity.
+inline stillpoint::Pose aside(double x_m) {
+  stillpoint::Pose pose = stillpoint::Pose::Identity();
+  pose.translation().x() = x_m;
+  return pose;
 }
 
 inline double error_m(const stillpoint::Pose& found, const stillpoint::Pose& truth) {

@@ -8,11 +8,11 @@
 #include <filesystem>
 #include <string>
 
-#if defined(__unix__)
-#include <sys/resource.h>
-
 #include "unit/error_of.hpp"
 #include "unit/temporary_folder.hpp"
+
+#if defined(__unix__)
+#include <sys/resource.h>
 #endif
 
 namespace stillpoint {
