@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The methods that the accuracy tables compare, and what is counted of each.
+// The methods that the accuracy tables compare.
 
 #include <opencv2/calib3d.hpp>
 #include <opencv2/video/tracking.hpp>
@@ -19,60 +19,16 @@
 
 #include "accuracy_sequence.hpp"
 #include "run/corrections.hpp"
-#include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
+#include "tally.hpp"
 
 namespace stillpoint::bench {
-
-/// What a method did to a sequence; empty where there is nothing to count.
-struct Outcome {
-  std::optional<double> recall_percent, false_alarms_percent;
-  std::optional<double> p95_mm, p95_deg;  ///< of the motions that were claimed
-};
 
 /// A row of the tables.
 struct Method {
   std::string name;
   std::function<Outcome(const LabelledSequence&, bool gives_boxes)> run;
-};
-
-/// Counts one method over one sequence.
-class Tally {
- public:
-  /// Takes the flags of a frame, and the motion from the last frame where the method claims one.
-  void add(const LabelledFrame& frame, const LabelledFrame* last, span<const std::uint8_t> keep,
-           const std::optional<Pose>& current_from_last) {
-    pixels_.clear();
-    for (const cv::KeyPoint& keypoint : frame.keypoints) pixels_.emplace_back(keypoint.pt.x, keypoint.pt.y);
-    if (!frame.labels.empty()) score_.add_frame(frame.labels, pixels_, keep);
-    if (!current_from_last || last == nullptr || !frame.world_from_camera || !last->world_from_camera) return;
-    const Pose truth = frame.world_from_camera->inverse() * *last->world_from_camera;
-    const Pose error = truth.inverse() * *current_from_last;
-    error_mm_.push_back(1e3 * error.translation().norm());
-    constexpr double kDegrees = 57.29577951308232;
-    error_deg_.push_back(kDegrees * Eigen::AngleAxisd(orthonormalized(error).linear()).angle());
-  }
-
-  Outcome outcome() {
-    const auto percent = [](const std::optional<double>& share) {
-      return share ? std::optional(100 * *share) : std::nullopt;
-    };
-    return {percent(score_.recall()), percent(score_.false_alarms()), percentile_95(error_mm_),
-            percentile_95(error_deg_)};
-  }
-
- private:
-  /// The smallest value that 95 % do not exceed.
-  static std::optional<double> percentile_95(std::vector<double>& values) {
-    if (values.empty()) return std::nullopt;
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1];
-  }
-
-  FilterScore score_;
-  std::vector<Vector2f> pixels_;
-  std::vector<double> error_mm_, error_deg_;
 };
 
 /// A filter of ours, set by `adjust(filter)`.

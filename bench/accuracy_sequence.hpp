@@ -68,6 +68,13 @@ inline LabelledSequence rendered_sequence(const synthetic::Scene& scene, std::si
   return sequence;
 }
 
+/// The reference pose of a time; empty where there is none within 10 ms.
+inline std::optional<Pose> reference_pose(const TumSequence& source, double timestamp_s) {
+  if (!source.ground_truth()) return std::nullopt;
+  const AssociatedTrajectories pair = associate(*source.ground_truth(), {{timestamp_s, Pose::Identity()}});
+  return pair.reference.empty() ? std::nullopt : std::optional(pair.reference.front().world_from_camera);
+}
+
 /// @throws Error where a file can't be read
 inline LabelledSequence recorded_sequence(const std::filesystem::path& folder, std::size_t most_frames) {
   const TumSequence source(folder);
@@ -83,10 +90,7 @@ inline LabelledSequence recorded_sequence(const std::filesystem::path& folder, s
     frame.depth_factor = source.depth_factor();
     frame.timestamp_s = source.frames()[i].timestamp_s;
     if (source.has_labels()) frame.labels = source.load_labels(i);
-    if (source.ground_truth()) {
-      const AssociatedTrajectories pair = associate(*source.ground_truth(), {{frame.timestamp_s, Pose::Identity()}});
-      if (!pair.reference.empty()) frame.world_from_camera = pair.reference.front().world_from_camera;
-    }
+    frame.world_from_camera = reference_pose(source, frame.timestamp_s);
     if (const FrameBoxes* const found = boxes_at(boxes, frame.timestamp_s))
       for (const DetectedBox& box : found->boxes)
         frame.detections.push_back({box.box, mobility[box.class_name], box.confidence});

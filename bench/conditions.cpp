@@ -1,0 +1,202 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// stillpoint_conditions [FOLDER...]: the filter, and the odometry of examples/ behind it, over labelled recordings
+// under each condition of degradations.hpp; one table in Markdown on standard output. conditions.sh builds and runs it.
+
+#include <opencv2/core/utility.hpp>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "conditions.hpp"
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/options/options_file.hpp"
+
+namespace stillpoint::bench {
+namespace {
+
+struct Arguments {
+  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> only;
+  std::size_t seeds = 3;
+  std::size_t frames = kAllFrames;
+  std::string options_file;
+  bool without_trackers = false;
+  bool with_boxes = false;
+  unsigned threads = std::max(1u, std::thread::hardware_concurrency());
+};
+
+/// A row of the table, filled run by run.
+struct Row {
+  std::filesystem::path folder;
+  Condition condition;
+  std::vector<ConditionOutcome> outcomes;                 ///< one a run
+  std::vector<std::optional<double>> labels, unfiltered;  ///< ATE in metres, one a run that differs
+};
+
+/// Runs differ by the seed of the condition and of the filter's own random numbers.
+FrameFilter<> make_filter(const LabelledSequence& sequence, const Arguments& arguments, std::size_t run) {
+  FrameFilter<> filter(sequence.camera);
+  if (!arguments.options_file.empty()) read_options(arguments.options_file, filter);
+  filter.ego_motion.options.seed += run;
+  filter.classifier.options.seed += run;
+  return filter;
+}
+
+void run_once(Row& row, std::size_t run, const Arguments& arguments) {
+  LabelledSequence sequence = degraded_sequence(row.folder, row.condition, run, arguments.frames);
+  if (arguments.with_boxes)
+    add_boxes(row.folder, sequence.camera.width() / static_cast<double>(TumSequence(row.folder).camera().width()),
+              sequence);
+  row.outcomes[run] = run_filter(sequence, make_filter(sequence, arguments, run), !arguments.without_trackers);
+  if (arguments.without_trackers || (run > 0 && !row.condition.is_random)) return;
+  const auto nothing = [](const auto&, const auto&, const auto&) {};
+  row.unfiltered[run] = ate_rmse_m(sequence, run_odometry(sequence, NullFilter{}, nothing));
+  const bool has_labels = !sequence.frames.empty() && !sequence.frames.front().labels.empty();
+  if (has_labels && row.outcomes[run].filter.recall_percent)
+    row.labels[run] = ate_rmse_m(sequence, run_odometry(sequence, examples::OracleFilter{}, nothing));
+}
+
+struct Spread {
+  double mean = 0, median = 0, least = 0, most = 0;
+};
+
+template <class Values, class Read>
+std::optional<Spread> spread(const Values& values, Read&& read) {
+  std::vector<double> known;
+  for (const auto& value : values)
+    if (const std::optional<double> number = read(value)) known.push_back(*number);
+  if (known.empty()) return std::nullopt;
+  std::sort(known.begin(), known.end());
+  double sum = 0;
+  for (const double value : known) sum += value;
+  const std::size_t n = known.size();
+  return Spread{sum / static_cast<double>(n), 0.5 * (known[(n - 1) / 2] + known[n / 2]), known.front(), known.back()};
+}
+
+/// @param figure  what stands before the brackets
+std::string cell(const std::optional<Spread>& spread, double Spread::*figure, int digits, double scale = 1.0) {
+  if (!spread) return "n/a";
+  char text[96];
+  std::snprintf(text, sizeof text, "%.*f (%.*f to %.*f)", digits, scale * ((*spread).*figure), digits,
+                scale * spread->least, digits, scale * spread->most);
+  return text;
+}
+
+void print(const std::vector<Row>& rows) {
+  std::printf(
+      "| recording | condition | runs | recall | false-positive rate | own motion p95, mm | own motion p95, deg | "
+      "ATE filtered, m | ATE labels, m | ATE unfiltered, m |\n|---|---|---|---|---|---|---|---|---|---|\n");
+  const auto number = [](const std::optional<double>& value) { return value; };
+  for (const Row& row : rows) {
+    const auto of_filter = [&](std::optional<double> Outcome::*figure) {
+      return spread(row.outcomes, [figure](const ConditionOutcome& outcome) { return outcome.filter.*figure; });
+    };
+    const auto filtered = spread(row.outcomes, [](const ConditionOutcome& outcome) { return outcome.ate_filtered_m; });
+    std::printf("| %s | %s | %zu | %s | %s | %s | %s | %s | %s | %s |\n", row.folder.filename().string().c_str(),
+                row.condition.name.c_str(), row.outcomes.size(),
+                cell(of_filter(&Outcome::recall_percent), &Spread::mean, 3, 0.01).c_str(),
+                cell(of_filter(&Outcome::false_alarms_percent), &Spread::mean, 4, 0.01).c_str(),
+                cell(of_filter(&Outcome::p95_mm), &Spread::mean, 1).c_str(),
+                cell(of_filter(&Outcome::p95_deg), &Spread::mean, 2).c_str(),
+                cell(filtered, &Spread::median, 4).c_str(),
+                cell(spread(row.labels, number), &Spread::median, 4).c_str(),
+                cell(spread(row.unfiltered, number), &Spread::median, 4).c_str());
+  }
+}
+
+void measure(const Arguments& arguments) {
+  std::vector<Row> rows;
+  for (const std::filesystem::path& folder : arguments.folders)
+    for (const Condition& condition : conditions()) {
+      const bool is_wanted = arguments.only.empty() || std::find(arguments.only.begin(), arguments.only.end(),
+                                                                 condition.name) != arguments.only.end();
+      if (!is_wanted) continue;
+      Row row{folder, condition, {}, {}, {}};
+      row.outcomes.resize(condition.runs(arguments.seeds));
+      row.labels.resize(row.outcomes.size());
+      row.unfiltered.resize(row.outcomes.size());
+      rows.push_back(std::move(row));
+    }
+  std::vector<std::pair<std::size_t, std::size_t>> jobs;
+  for (std::size_t r = 0; r < rows.size(); ++r)
+    for (std::size_t run = 0; run < rows[r].outcomes.size(); ++run) jobs.emplace_back(r, run);
+  std::atomic<std::size_t> next{0}, done{0};
+  std::exception_ptr failure;
+  std::mutex guard;
+  const auto work = [&] {
+    try {
+      for (std::size_t j = next++; j < jobs.size(); j = next++) {
+        run_once(rows[jobs[j].first], jobs[j].second, arguments);
+        std::fprintf(stderr, "\r%zu of %zu runs", ++done, jobs.size());
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(guard);
+      failure = std::current_exception();
+      next = jobs.size();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned t = 0; t < arguments.threads; ++t) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  std::fprintf(stderr, "\n");
+  if (failure) std::rethrow_exception(failure);
+  print(rows);
+}
+
+Arguments parse(int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app("Runs the filter over labelled recordings under many conditions.", "stillpoint_conditions");
+  std::vector<std::string> folders, names;
+  for (const Condition& condition : conditions()) names.push_back(condition.name);
+  app.add_option("folder", folders,
+                 "folders in the layout of the TUM benchmark with labels/ [kitchen_* of the shared data]");
+  app.add_option("--only", arguments.only, "conditions, separated by commas [all]")
+      ->delimiter(',')
+      ->check(CLI::IsMember(names));
+  app.add_option("--seeds", arguments.seeds, "runs of a condition without phases [3]")->check(CLI::Range(1, 100));
+  app.add_option("--frames", arguments.frames, "of each recording [all]")->check(CLI::Range(2, 1000000));
+  app.add_option("--options", arguments.options_file, "options of the stages, YAML")->check(CLI::ExistingFile);
+  app.add_option("--threads", arguments.threads, "[one a core]")->check(CLI::Range(1, 256));
+  app.add_flag("--without-trackers", arguments.without_trackers, "the filter alone");
+  app.add_flag("--boxes", arguments.with_boxes, "give the filter the boxes of boxes.txt");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error) == 0 ? 0 : 2);
+  }
+  if (folders.empty())
+    for (const char* const name : {"kitchen_walk", "kitchen_box", "kitchen_static", "kitchen_round"})
+      folders.push_back(std::string(STILLPOINT_SHARED_DATA) + "/" + name);
+  arguments.folders.assign(folders.begin(), folders.end());
+  return arguments;
+}
+
+}  // namespace
+}  // namespace stillpoint::bench
+
+int main(int argc, char** argv) {
+  cv::setNumThreads(1);
+  const stillpoint::bench::Arguments arguments = stillpoint::bench::parse(argc, argv);
+  try {
+    stillpoint::bench::measure(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "stillpoint_conditions: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
