@@ -119,7 +119,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   }
   if (without("memory")) {
     auto& memory = filter.memory.options;
-    memory.persistence = memory.suspicion_persistence = 0.0f;
+    memory.log_odds_decay_s = memory.suspicion_decay_s = 0.0;
     memory.keep_below = memory.drop_above;
   }
   if (without("keep-floor")) filter.keep_floor.options.fewest_features = filter.keep_floor.options.fewest_cells = 0;

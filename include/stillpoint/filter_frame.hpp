@@ -109,15 +109,18 @@ class FrameFilter : private PolicyContract<Policies> {
     Timings& timings = result_.timings_;
     workspace_.rewind();
     matches_.begin(pixels_);
+    matches_.elapsed_s = frame.timestamp_s - reference.timestamp_s;
+
+    const MotionPrior expected = expectation_.at(frame.timestamp_s);
 
     timings.run(Stage::prior, [&] { prior.regions(frame, regions_); });
     timings.run(Stage::match, [&] {
+      align(matcher, reference, frame, expected, camera);
       matcher.match(reference, frame, matches_);
       lift(frame, depth_lookup, camera, depth_noise, matches_.current);
       lift(reference, depth_lookup, camera, depth_noise, matches_.reference);
       regions_.locate(matches_.current.pixel, matches_.current.depth_m);
     });
-    const MotionPrior expected = expectation_.at(frame.timestamp_s);
     survey(*this, history_, frame, expected, matches_, workspace_, timings);
     timings.run(Stage::motion, [&] {
       motion = ego_motion.estimate(matches_, regions_, camera, expected, workspace_);

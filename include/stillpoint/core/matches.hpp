@@ -62,6 +62,7 @@ struct Observations {
 /// corners of its own behind them, which take part in every stage and in no result.
 struct Matches {
   std::size_t host_count = 0;
+  double elapsed_s = 0;  ///< from the reference frame to the current one
   Observations current;
   Observations reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;

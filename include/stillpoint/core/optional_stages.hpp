@@ -30,6 +30,11 @@ template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise
     std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(),
     std::declval<Matches&>()))>> : std::true_type {};
 
+template <class P, class Camera, class = void> struct aligns : std::false_type {};
+template <class P, class Camera> struct aligns<P, Camera, std::void_t<decltype(std::declval<P&>().align(
+    std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<const Pose&>(),
+    std::declval<const Camera&>()))>> : std::true_type {};
+
 template <class P, class Camera, class = void> struct refines : std::false_type {};
 template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
     std::declval<Matches&>(), std::declval<const Regions&>(), std::declval<const Camera&>(),
@@ -51,6 +56,16 @@ template <class P, class = void> struct resets : std::false_type {};
 template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().reset())>> : std::true_type {};
 
 // clang-format on
+
+/// Before matching: a matcher may align the frames roughly.
+template <class Matcher, class Camera>
+void align(Matcher& matcher, const FrameView& reference, const FrameView& current, const MotionPrior& expected,
+           const Camera& camera) {
+  if constexpr (aligns<Matcher, Camera>::value)
+    matcher.align(reference, current,
+                  expected.current_from_reference ? inverted(*expected.current_from_reference) : Pose::Identity(),
+                  camera);
+}
 
 /// Before the motion: a matcher may survey older frames, and a memory may know features and surfaces; it fills their
 /// trust.

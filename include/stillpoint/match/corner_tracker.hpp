@@ -13,6 +13,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/match/coarse_alignment.hpp"
 #include "stillpoint/match/grid_corners.hpp"
 #include "stillpoint/match/patch.hpp"
 #include "stillpoint/match/pyramid.hpp"
@@ -35,39 +36,78 @@ class CornerTracker {
   };
   Options options;
 
+  /// Aligns the frames roughly: says where `match` begins to look for each corner. To be called before it.
+  /// @param reference_from_expected  what is expected of the motion
+  template <class Camera>
+  void align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
+             const Camera& camera) {
+    prepare(reference, current);
+    const Pose guess = coarse_.align(current.depth, current.gray, reference_from_expected, camera);
+    const DepthScale to_depth(current.gray, current.depth.image);
+    for (std::size_t c = 0; c < corners_.size(); ++c) {
+      const Vector2f at = to_depth(corners_[c]);
+      const int u = rounded(at.x()), v = rounded(at.y());
+      const double measured_m = current.depth.image.contains(u, v) ? double{current.depth.metres(u, v)} : 0.0;
+      const double depth_m = measured_m > 0 && std::isfinite(measured_m) ? measured_m : coarse_.typical_depth_m();
+      const Vector3d there =
+          guess * camera.back_project(camera.undistort(corners_[c].template cast<double>()), depth_m);
+      if (there.z() > 0)
+        start_[c] = camera.distort(camera.project(there)).template cast<float>() - corners_[c];
+    }
+  }
+
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
-    if (!(reference_time_s_ == reference.timestamp_s)) reference_.build(reference.gray, options.pyramid_levels);
-    current_.build(current.gray, options.pyramid_levels);
+    prepare(reference, current);
     for (std::size_t i = 0; i < matches.host_count; ++i)
       if (!(border_distance_px(current.gray, matches.current.pixel[i]) >= 0.0f)) matches.state[i] = MatchState::outside;
-    append_corners(matches);
-    for (std::size_t i = matches.host_count; i < matches.size(); ++i) follow(i, current.depth, matches);
+    const std::size_t first = matches.size();
+    matches.resize(first + corners_.size());
+    for (std::size_t c = 0; c < corners_.size(); ++c) {
+      matches.current.pixel[first + c] = corners_[c];
+      follow(first + c, start_[c], current.depth, matches);
+    }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
   }
 
-  void reset() noexcept { reference_time_s_ = std::numeric_limits<double>::quiet_NaN(); }
+  void reset() noexcept {
+    reference_time_s_ = current_time_s_ = std::numeric_limits<double>::quiet_NaN();
+    coarse_.reset();
+  }
 
  private:
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
     return image.border_distance_px(pixel.x(), pixel.y());
   }
 
-  void append_corners(Matches& matches) {
-    constexpr std::size_t kLevel = 1;  // sharp enough, and a quarter of the pixels
-    if (current_.size() <= kLevel) return;
-    corners_.clear();
-    workspace_.rewind();
-    grid_corners(current_[kLevel], options.cell_px / 2, options.weakest_corner, corners_, workspace_);
-    const std::size_t first = matches.size();
-    matches.resize(first + corners_.size());
-    for (std::size_t c = 0; c < corners_.size(); ++c)
-      matches.current.pixel[first + c] = rounded(Pyramid::from_level(corners_[c], kLevel));
+  /// Pyramids of both frames, and the corners of the current one. Once for each frame.
+  void prepare(const FrameView& reference, const FrameView& current) {
+    if (current_time_s_ == current.timestamp_s) return;
+    if (!(reference_time_s_ == reference.timestamp_s)) {
+      reference_.build(reference.gray, options.pyramid_levels);
+      coarse_.add_frame(reference_);
+    }
+    current_.build(current.gray, options.pyramid_levels);
+    coarse_.add_frame(current_);
+    find_corners();
+    current_time_s_ = current.timestamp_s;
   }
 
-  void follow(std::size_t i, const DepthView& depth, Matches& matches) const {
+  void find_corners() {
+    constexpr std::size_t kLevel = 1;  // sharp enough, and a quarter of the pixels
+    corners_.clear();
+    if (current_.size() > kLevel) {
+      workspace_.rewind();
+      grid_corners(current_[kLevel], options.cell_px / 2, options.weakest_corner, corners_, workspace_);
+      for (Vector2f& corner : corners_) corner = rounded(Pyramid::from_level(corner, kLevel));
+    }
+    start_.assign(corners_.size(), Vector2f::Zero());
+  }
+
+  /// @param start  displacement from which the search begins, pixels
+  void follow(std::size_t i, const Vector2f& start, const DepthView& depth, Matches& matches) const {
     const Vector2f pixel = matches.current.pixel[i];
-    Vector2f displacement = Vector2f::Zero();
+    Vector2f displacement = start;
     Patch patch;
     PatchFit fit;
     for (std::size_t level = current_.size(); level-- > 0;) {
@@ -89,7 +129,10 @@ class CornerTracker {
 
   Pyramid reference_, current_;
   double reference_time_s_ = std::numeric_limits<double>::quiet_NaN();
+  double current_time_s_ = std::numeric_limits<double>::quiet_NaN();
+  CoarseAlignment coarse_;
   std::vector<Vector2f> corners_;
+  std::vector<Vector2f> start_;  // of each corner's search, pixels
   Workspace workspace_;
 };
 

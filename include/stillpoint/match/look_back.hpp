@@ -32,7 +32,8 @@ class LookBack {
     double slowest_m_s = 0.03;       ///< a mover of this speed should be seen against the oldest frame …
     double detectable_sigmas = 3.0;  ///< … by a step of this many standard deviations
     double pixel_sigma = 0.7;        ///< of a found patch, pixels
-    double longest_s = 0.5;          ///< but no frame is older than this
+    double longest_s = 0.5;          ///< but no frame is older than this, unless frames are few
+    double longest_at_low_rate_s = 1.0;
     int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the feature's surface
     DepthTolerance same_surface;
     double occlusion_m = 0.15;       ///< a surface this much nearer hides the point …
@@ -84,18 +85,23 @@ class LookBack {
   }
 
  private:
-  /// The last frame, the oldest that is needed, and one between them (their geometric mean); 0 is none. The oldest is
-  /// the first against which the slowest mover of interest makes a detectable step at the scene's median depth.
+  /// The last frame, the oldest that is needed, and one between them (their geometric mean in time); 0 is none. The
+  /// oldest is the first against which the slowest mover of interest makes a detectable step at the scene's median
+  /// depth, and at the least the third: one look can be a reflection.
   template <class Camera>
   std::array<std::size_t, 3> choose_ages(const FrameHistory& history, const FrameView& current, const Camera& camera,
                                          const Matches& matches, Workspace& workspace) const {
     const double lateral_sigma_m = options.pixel_sigma * median_depth_m(matches.current, workspace) / camera.fx();
     const double wanted_s =
         std::min(options.detectable_sigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
+    const auto elapsed_s = [&](std::size_t age) { return current.timestamp_s - history.back(age).timestamp_s; };
+    constexpr std::size_t kLooks = 3;
     std::size_t oldest = 1;
-    while (oldest < history.size() && current.timestamp_s - history.back(oldest).timestamp_s < wanted_s) ++oldest;
-    const auto between = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(oldest))));
-    return {1, between > 1 ? between : 0, oldest > between ? oldest : 0};
+    while (oldest < history.size() &&
+           (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < options.longest_at_low_rate_s)))
+      ++oldest;
+    const std::size_t between = std::max<std::size_t>(2, std::lround(std::sqrt(static_cast<double>(oldest))));
+    return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
   }
 
   template <class Camera, class Noise>

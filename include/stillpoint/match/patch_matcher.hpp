@@ -14,6 +14,13 @@ struct PatchMatcher {
   CornerTracker corners;  ///< its settings are `corners.options`
   LookBack older;         ///< and `older.options`
 
+  /// Before `match`, where the motion is expected to be large.
+  template <class Camera>
+  void align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
+             const Camera& camera) {
+    corners.align(reference, current, reference_from_expected, camera);
+  }
+
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
     corners.match(reference, current, matches);
   }

@@ -15,6 +15,7 @@
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/memory/neighbour_steps.hpp"
 #include "stillpoint/memory/remembered_points.hpp"
 
 namespace stillpoint {
@@ -27,13 +28,13 @@ namespace stillpoint {
 class EvidenceMemory {
  public:
   struct Options {
-    float persistence = 0.7f;     ///< share of the log-odds that is left after a frame
+    double log_odds_decay_s = 0.0935;  ///< time in which log-odds fall by e
     float most_log_odds = 3.0f;   ///< log-odds are held within ± this
     float drop_above = 0.0f;      ///< a feature is dynamic above this …
     float keep_below = -2.0f;     ///< … and stands still again below this, if it was dynamic before
     float suspect_above = 1.0f;   ///< log-odds that make a feature suspect
-    float suspicion_gain = 0.4f;  ///< what a frame adds: a flicker at a silhouette leaves no lasting suspicion
-    float suspicion_persistence = 0.995f;
+    double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
+    double suspicion_decay_s = 6.65;
     float restlessness = 0.6f;   ///< share of the lower bound that full suspicion takes away: it will move again
     float least_trust = 0.01f;   ///< say of a feature of full suspicion
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
@@ -49,17 +50,22 @@ class EvidenceMemory {
     recalled_of_cell_.assign(matches.sightings.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
+    const NeighbourSteps steps(matches, options.neighbour_px, options.same_surface, workspace);
+    suspicion_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.suspicion_decay_s));
     const RememberedPoints points(pixel_, remembered_, {options.neighbour_px, options.feature_px, options.same_surface},
                                   workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : matches.current.pixel[i];
-      recalled_[i] = look_up(points, pixel, matches.current.depth_m[i]);
+      const Vector2f here = matches.current.pixel[i];
+      const double depth_m = matches.current.depth_m[i];
+      const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : here + steps.around(here, depth_m);
+      recalled_[i] = look_up(points, pixel, depth_m);
       matches.trust[i] = trust(recalled_[i].suspicion);
       matches.recalled_log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       SurfaceCell& cell = matches.sightings.surfaces[s];
-      recalled_of_cell_[s] = look_up(points, cell.pixel, cell.point.z());
+      const double depth_m = cell.point.z();
+      recalled_of_cell_[s] = look_up(points, cell.pixel + steps.around(cell.pixel, depth_m), depth_m);
       cell.trust = trust(recalled_of_cell_[s].suspicion);
     }
   }
@@ -68,16 +74,18 @@ class EvidenceMemory {
   void update(const Matches& matches, const Motion&, span<const FeatureScore>, span<Label> labels, Workspace&) {
     pixel_.clear();
     remembered_.clear();
+    const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
+    const auto suspicion_gain = static_cast<float>(1.0 - std::exp(-matches.elapsed_s / options.suspicion_rise_s));
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Memory before = recalled_[i];
       Label& label = labels[i];
       const float now = label.log_odds;
       const float least = -options.most_log_odds * (1.0f - options.restlessness * before.suspicion);
-      label.log_odds = std::clamp(options.persistence * before.log_odds + now, least, options.most_log_odds);
+      label.log_odds = std::clamp(persistence * before.log_odds + now, least, options.most_log_odds);
       label.trust = matches.trust[i];
       decide(label, now, before.log_odds > options.drop_above);
       float suspicion = before.suspicion;
-      if (label.log_odds > options.suspect_above) suspicion += options.suspicion_gain * (1.0f - before.suspicion);
+      if (label.log_odds > options.suspect_above) suspicion += suspicion_gain * (1.0f - before.suspicion);
       remember(matches.current.pixel[i], matches.current.depth_m[i], {label.log_odds, suspicion}, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
@@ -112,7 +120,7 @@ class EvidenceMemory {
     if (near.feature_weight > 0) memory.log_odds = near.log_odds / near.feature_weight;
     if (near.votes > 0) {
       const float majority = (near.suspicion / near.votes - options.minority) / (1 - 2 * options.minority);
-      memory.suspicion = options.suspicion_persistence * std::clamp(majority, 0.0f, 1.0f);
+      memory.suspicion = suspicion_left_ * std::clamp(majority, 0.0f, 1.0f);
     }
     return memory;
   }
@@ -130,6 +138,7 @@ class EvidenceMemory {
       label.reason = label.reason == Reason::consistent ? Reason::inconsistent : Reason::neighbours;
   }
 
+  float suspicion_left_ = 1.0f;  // of what was remembered one frame ago
   // Of the last frame, its features before its surface cells.
   std::vector<Vector2f> pixel_;
   std::vector<RememberedPoint> remembered_;

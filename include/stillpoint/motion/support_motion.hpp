@@ -81,7 +81,12 @@ class SupportMotion {
         problem.distance_px(sampled.reference_from_current, past.reference_from_current) > options.same_motion_px;
     const bool knows_past =
         prior.current_from_reference.has_value();  // else it began with no motion, for want of better
-    const bool inverted = differ && knows_past && past.support > options.past_preference * sampled.support;
+    // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
+    const bool inverted =
+        differ && knows_past &&
+        problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
+            options.past_preference *
+                problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
     motion.standing = standing.since_last_frame(matches, prior.standing) &&
                       nothing_creeps(points, features, matches, camera, workspace);

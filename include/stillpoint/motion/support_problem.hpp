@@ -129,6 +129,14 @@ class SupportProblem {
     return sum;
   }
 
+  /// The weight of the points that one pose explains and another does not.
+  double exclusive_support(const Pose& pose, const Pose& other) const {
+    double sum = 0;
+    for (const PointConstraint& point : points_)
+      if (squared(point, pose) < limit_ && !(squared(point, other) < limit_)) sum += point.weight;
+    return sum;
+  }
+
   /// Squared residuals that a loss of support stands for.
   double squared_residuals_of(double support_loss) const noexcept { return support_loss * limit_; }
 

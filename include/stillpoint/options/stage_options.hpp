@@ -172,7 +172,7 @@ void each_option(SightingScore& stage, Visit& visit) {
   visit("most_from_depth", stage.options.most_from_depth);
   visit("expected_patch", stage.options.expected_patch);
   visit("expected_depth", stage.options.expected_depth);
-  visit.any("unseen", stage.options.unseen);
+  visit("single_share", stage.options.single_share);
 }
 
 template <class Visit>
@@ -219,14 +219,14 @@ void each_option(SurfaceClusters& stage, Visit& visit) {
 
 template <class Visit>
 void each_option(EvidenceMemory& stage, Visit& visit) {
-  visit("persistence", stage.options.persistence);
+  visit("log_odds_decay_s", stage.options.log_odds_decay_s);
   visit("most_log_odds", stage.options.most_log_odds);
   visit("restlessness", stage.options.restlessness);
   visit.any("drop_above", stage.options.drop_above);
   visit.any("keep_below", stage.options.keep_below);
   visit.any("suspect_above", stage.options.suspect_above);
-  visit("suspicion_gain", stage.options.suspicion_gain);
-  visit("suspicion_persistence", stage.options.suspicion_persistence);
+  visit("suspicion_rise_s", stage.options.suspicion_rise_s);
+  visit("suspicion_decay_s", stage.options.suspicion_decay_s);
   visit("least_trust", stage.options.least_trust);
   visit.positive("feature_px", stage.options.feature_px);
   visit.positive("neighbour_px", stage.options.neighbour_px);

@@ -38,7 +38,7 @@ class SightingScore {
     double most_from_depth = 8.0;       ///< of the depth
     double expected_patch = 1.5;        ///< what a standing point scores by place and look on average
     double expected_depth = 1.0;        ///< and by depth
-    double unseen = -3.0;               ///< a frame that says nothing speaks for standing still
+    double single_share = 0.7;          ///< of its evidence in the score where one frame alone saw the place
   };
   Options options;
 
@@ -46,17 +46,19 @@ class SightingScore {
   template <class Camera>
   void score(const Matches& matches, const Motion& motion, const Camera& camera, span<FeatureScore> scores) const {
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      double most = options.unseen, second = options.unseen;
-      bool seen = false;
+      constexpr double kNever = -std::numeric_limits<double>::infinity();
+      double most = kNever, second = kNever;
       for (const OlderFrame& frame : matches.sightings.frames()) {
         const Sighting& sighting = frame.of_feature[i];
         if (sighting.state != SightingState::seen) continue;
-        seen = true;
         const double evidence = evidence_of(sighting, frame, matches, i, motion, camera);
         second = std::max(second, std::min(most, evidence));
         most = std::max(most, evidence);
       }
-      if (seen) scores[i].value = static_cast<float>(0.5 * (most + second));
+      if (second > kNever)
+        scores[i].value = static_cast<float>(0.5 * (most + second));
+      else if (most > kNever)
+        scores[i].value = static_cast<float>(options.single_share * most);
     }
   }
 

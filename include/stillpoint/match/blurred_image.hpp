@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A small, blurred image without its gain and offset.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/image.hpp"
+
+namespace stillpoint {
+
+/// Gray values of mean 0 and standard deviation 1, blurred. Pixels are asked for in those of the full-sized image.
+class BlurredImage {
+ public:
+  /// @param gray      8 bit
+  /// @param scale     pixels of the full-sized image to one of `gray`
+  /// @param blur_px   standard deviation, pixels of `gray`
+  void assign(const ImageView& gray, std::size_t scale, float blur_px) {
+    width_ = gray.width;
+    height_ = gray.height;
+    scale_ = static_cast<float>(scale);
+    value_.resize(size());
+    for (int v = 0; v < height_; ++v)
+      for (int u = 0; u < width_; ++u) value_[index(u, v)] = static_cast<float>(gray.row<std::uint8_t>(v)[u]);
+    normalize();
+    blur(blur_px);
+  }
+
+  /// Means of four of another, blurred once more.
+  void assign_half(const BlurredImage& image, float blur_px) {
+    width_ = image.width_ / 2;
+    height_ = image.height_ / 2;
+    scale_ = 2.0f * image.scale_;
+    value_.resize(size());
+    for (int v = 0; v < height_; ++v)
+      for (int u = 0; u < width_; ++u)
+        value_[index(u, v)] = 0.25f * (image.at(2 * u, 2 * v) + image.at(2 * u + 1, 2 * v) + image.at(2 * u, 2 * v + 1) +
+                                       image.at(2 * u + 1, 2 * v + 1));
+    blur(blur_px);
+  }
+
+  void clear() noexcept { width_ = height_ = 0; }
+  bool empty() const noexcept { return width_ == 0; }
+  int width() const noexcept { return width_; }
+  int height() const noexcept { return height_; }
+  float at(int u, int v) const noexcept { return value_[index(u, v)]; }
+
+  /// A pixel of this image in the full-sized one.
+  Vector2f to_full(const Vector2f& pixel) const noexcept { return ((pixel.array() + 0.5f) * scale_ - 0.5f).matrix(); }
+
+  /// Bilinear value and slope, per pixel of the full-sized image. False outside.
+  bool sample(const Vector2f& full_pixel, float& value, Vector2f& slope) const noexcept {
+    const Vector2f at_px = ((full_pixel.array() + 0.5f) / scale_ - 0.5f).matrix();
+    if (!(at_px.x() >= 0 && at_px.y() >= 0 && at_px.x() < static_cast<float>(width_ - 1) &&
+          at_px.y() < static_cast<float>(height_ - 1)))
+      return false;
+    const int u = static_cast<int>(at_px.x()), v = static_cast<int>(at_px.y());
+    const float a = at_px.x() - static_cast<float>(u), b = at_px.y() - static_cast<float>(v);
+    const float* const above = &value_[index(u, v)];
+    const float* const below = above + width_;
+    const float left = above[0] + b * (below[0] - above[0]), right = above[1] + b * (below[1] - above[1]);
+    value = left + a * (right - left);
+    slope = Vector2f(right - left, (1 - a) * (below[0] - above[0]) + a * (below[1] - above[1])) / scale_;
+    return true;
+  }
+
+ private:
+  std::size_t size() const noexcept { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+  std::size_t index(int u, int v) const noexcept {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+  }
+
+  void normalize() {
+    if (value_.empty()) return;
+    double sum = 0, squares = 0;
+    for (const float value : value_) {
+      sum += static_cast<double>(value);
+      squares += static_cast<double>(value) * static_cast<double>(value);
+    }
+    const auto n = static_cast<double>(value_.size());
+    const double mean = sum / n;
+    constexpr double kLeastVariance = 1.0;  // squared gray values: a blank image stays blank
+    const double scale = 1.0 / std::sqrt(std::max(squares / n - mean * mean, kLeastVariance));
+    for (float& value : value_) value = static_cast<float>((static_cast<double>(value) - mean) * scale);
+  }
+
+  /// Three box filters of radius 1 for each unit of variance 2, which is what three of them have.
+  void blur(float sigma_px) {
+    const int rounds = std::max(1, static_cast<int>(std::lround(sigma_px * sigma_px / (2.0f / 3.0f))));
+    buffer_.resize(value_.size());
+    for (int round = 0; round < rounds; ++round) {
+      for (int v = 0; v < height_; ++v)
+        for (int u = 0; u < width_; ++u)
+          buffer_[index(u, v)] =
+              (at(std::max(u - 1, 0), v) + at(u, v) + at(std::min(u + 1, width_ - 1), v)) * (1.0f / 3.0f);
+      for (int v = 0; v < height_; ++v)
+        for (int u = 0; u < width_; ++u)
+          value_[index(u, v)] = (buffer_[index(u, std::max(v - 1, 0))] + buffer_[index(u, v)] +
+                                 buffer_[index(u, std::min(v + 1, height_ - 1))]) *
+                                (1.0f / 3.0f);
+    }
+  }
+
+  int width_ = 0, height_ = 0;
+  float scale_ = 1;
+  std::vector<float> value_, buffer_;
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,187 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How did the camera move, roughly?   The whole frame at once, small and blurred: a basin of a tenth of the image's
+// width, for corners that only reach a few pixels on each level of their pyramid.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/match/blurred_image.hpp"
+#include "stillpoint/match/pyramid.hpp"
+
+namespace stillpoint {
+
+/// Direct alignment of gray values by robust Gauss-Newton steps, coarse to fine, over pixels whose depth is known; those
+/// without one are taken at the median depth. Gain and offset of the exposure cancel.
+/// Source: Klein and Murray, "Improving the Agility of Keyframe-Based SLAM", ECCV 2008 (small blurry images); Kerl,
+/// Sturm and Cremers, "Robust Odometry Estimation for RGB-D Cameras", ICRA 2013 (weights).
+class CoarseAlignment {
+ public:
+  /// Builds the small images of the current frame. Call once for each frame, before `align`.
+  void add_frame(const Pyramid& pyramid) {
+    std::swap(reference_, current_);
+    std::size_t level = 0;
+    while (level + 1 < pyramid.size() && pyramid[level].width > kWidest_px) ++level;
+    current_[1].assign(pyramid[level], std::size_t{1} << level, kBlur_px / 2);
+    current_[0].assign_half(current_[1], kBlur_px / 2);
+  }
+
+  /// @param expected  reference_from_current, where the search begins; it begins at no motion, too
+  /// @return          reference_from_current; `expected` where nothing better is found. O(pixels of the small images).
+  template <class Camera>
+  Pose align(const DepthView& depth, const ImageView& gray, const Pose& expected, const Camera& camera) {
+    if (reference_[1].empty() || reference_[1].width() != current_[1].width()) return expected;
+    Estimate best;
+    for (std::size_t level = 0; level < current_.size(); ++level) {
+      collect_points(current_[level], depth, gray, camera);
+      if (points_.size() < kFewestPoints) return expected;
+      if (level == 0) {
+        best = descend(expected, reference_[0], camera);
+        const Estimate resting = descend(Pose::Identity(), reference_[0], camera);
+        if (resting.cost < best.cost) best = resting;
+      } else {
+        const Estimate fine = descend(best.reference_from_current, reference_[level], camera);
+        const double before = cost_of(expected, reference_[level], camera);
+        if (!(fine.cost < before)) return expected;
+        best = fine;
+      }
+    }
+    return best.reference_from_current;
+  }
+
+  /// Median depth of the current frame, metres.
+  double typical_depth_m() const noexcept { return typical_depth_m_; }
+
+  void reset() noexcept {
+    for (auto* images : {&reference_, &current_})
+      for (BlurredImage& image : *images) image.clear();
+  }
+
+ private:
+  static constexpr int kWidest_px = 96;        // of the finer image: 80 x 60 of 640 x 480
+  static constexpr float kBlur_px = 2.5f;      // standard deviation in the coarser one, as Klein and Murray's
+  static constexpr std::size_t kFewestPoints = 60;
+  static constexpr int kMostSteps = 12;
+  static constexpr float kCutoff = 0.6f;       // of a gray-value difference, in standard deviations of the image
+
+  struct Point {
+    Vector3d point;  ///< in the current camera, metres
+    float value;     ///< of the current image, normalised
+  };
+  struct Estimate {
+    Pose reference_from_current = Pose::Identity();
+    double cost = 1.0;  ///< mean loss, 0 to 1
+  };
+
+  template <class Camera>
+  void collect_points(const BlurredImage& image, const DepthView& depth, const ImageView& gray, const Camera& camera) {
+    points_.clear();
+    depths_m_.clear();
+    const int step = image.width() > kWidest_px / 2 ? 2 : 1;
+    const DepthScale to_depth(gray, depth.image);
+    for (int v = 1; v + 1 < image.height(); v += step)
+      for (int u = 1; u + 1 < image.width(); u += step) {
+        const Vector2f pixel = image.to_full(Vector2f(static_cast<float>(u), static_cast<float>(v)));
+        const Vector2f at = to_depth(pixel);
+        const int du = rounded(at.x()), dv = rounded(at.y());
+        double depth_m = depth.image.contains(du, dv) ? static_cast<double>(depth.metres(du, dv)) : 0.0;
+        if (!(depth_m > 0.0) || !std::isfinite(depth_m)) depth_m = 0.0;
+        if (depth_m > 0) depths_m_.push_back(depth_m);
+        points_.push_back({camera.back_project(camera.undistort(pixel.template cast<double>()), 1.0) *
+                               (depth_m > 0 ? depth_m : -1.0),
+                           image.at(u, v)});
+      }
+    if (depths_m_.empty()) return points_.clear();
+    typical_depth_m_ = median_in_place(span<double>(depths_m_));
+    for (Point& point : points_)
+      if (point.point.z() < 0) point.point *= -typical_depth_m_;
+  }
+
+  /// Tukey's loss, scaled to 1 at the cutoff and beyond.
+  static double loss(double residual) noexcept {
+    const double share = residual * residual / double{kCutoff * kCutoff};
+    const double rest = 1.0 - std::min(share, 1.0);
+    return 1.0 - rest * rest * rest;
+  }
+
+  template <class Camera>
+  double cost_of(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
+    double sum = 0;
+    for (const Point& point : points_) {
+      const Vector3d there = pose * point.point;
+      float value = 0;
+      Vector2f slope;
+      sum += there.z() > kNearest_m && image.sample(pixel_of(there, camera), value, slope)
+                 ? loss(static_cast<double>(value - point.value))
+                 : kUnseen;
+    }
+    return sum / static_cast<double>(points_.size());
+  }
+
+  template <class Camera>
+  static Vector2f pixel_of(const Vector3d& point, const Camera& camera) {
+    return camera.distort(camera.project(point)).template cast<float>();
+  }
+
+  template <class Camera>
+  Estimate descend(const Pose& start, const BlurredImage& image, const Camera& camera) const {
+    Estimate estimate{start, cost_of(start, image, camera)};
+    Pose pose = start;
+    for (int iteration = 0; iteration < kMostSteps; ++iteration) {
+      Matrix6d normal = kHold * Matrix6d::Identity();
+      Vector6d gradient = Vector6d::Zero();
+      for (const Point& point : points_) {
+        const Vector3d there = pose * point.point;
+        float value = 0;
+        Vector2f slope;
+        if (!(there.z() > kNearest_m) || !image.sample(pixel_of(there, camera), value, slope)) continue;
+        const auto residual = static_cast<double>(value - point.value);
+        const double rest = 1.0 - residual * residual / double{kCutoff * kCutoff};
+        if (!(rest > 0)) continue;
+        // ∂value / ∂there by the chain rule; there moves by ω × there + v.
+        const double gx = static_cast<double>(slope.x()) * camera.fx() / there.z();
+        const double gy = static_cast<double>(slope.y()) * camera.fy() / there.z();
+        const Vector3d g(gx, gy, -(gx * there.x() + gy * there.y()) / there.z());
+        Vector6d row;
+        row << there.cross(g), g;
+        normal.template selfadjointView<Eigen::Lower>().rankUpdate(row, rest * rest);
+        gradient += rest * rest * residual * row;
+      }
+      const Vector6d x = -normal.template selfadjointView<Eigen::Lower>().ldlt().solve(gradient);
+      if (!x.allFinite()) break;
+      const double length = std::max(x.head<3>().norm(), x.tail<3>().norm());
+      const double held = length > kLongestStep ? kLongestStep / length : 1.0;
+      Pose step = Pose::Identity();
+      step.linear() = rotation_from_vector(Vector3d(held * x.head<3>()));
+      step.translation() = held * x.tail<3>();
+      pose = orthonormalized(step * pose);
+      const double cost = cost_of(pose, image, camera);
+      if (cost < estimate.cost) estimate = {pose, cost};
+      if (length < kShortestStep) break;
+    }
+    return estimate;
+  }
+
+  static constexpr double kNearest_m = 0.1;
+  static constexpr double kUnseen = 0.5;         // loss of a point that leaves the image: neither gain nor loss
+  static constexpr double kHold = 1e-3;          // keeps what nothing is known of
+  static constexpr double kLongestStep = 0.15;   // radians, metres
+  static constexpr double kShortestStep = 5e-4;  // radians, metres: a quarter of a pixel
+
+  std::array<BlurredImage, 2> reference_, current_;  // coarse, fine
+  std::vector<Point> points_;
+  std::vector<double> depths_m_;
+  double typical_depth_m_ = 2.0;  // of a room
+};
+
+}  // namespace stillpoint
