@@ -11,6 +11,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/space_history.hpp"
 
 namespace stillpoint {
 
@@ -37,7 +38,13 @@ class FrameHistory {
 
   std::size_t size() const noexcept { return size_; }
   bool empty() const noexcept { return size_ == 0; }
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept {
+    size_ = 0;
+    space_.clear();
+  }
+
+  /// Where the past seconds saw space.
+  const SpaceHistory& space() const noexcept { return space_; }
 
   /// The frame `age` frames before the current one: 1 is the last, size() the oldest.
   const PastFrame& back(std::size_t age) const noexcept { return ring_[(head_ + ring_.size() - age) % ring_.size()]; }
@@ -65,12 +72,14 @@ class FrameHistory {
     slot.filter_from_camera = filter_from_camera;
     head_ = (head_ + 1) % ring_.size();
     size_ = std::min(size_ + 1, ring_.size());
+    if (ring_.size() > 1) space_.push(frame, filter_from_camera);
   }
 
  private:
   std::vector<PastFrame> ring_;
   std::size_t head_ = 0;
   std::size_t size_ = 0;
+  SpaceHistory space_;
 };
 
 }  // namespace stillpoint

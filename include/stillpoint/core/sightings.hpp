@@ -63,6 +63,8 @@ class Sightings {
   /// one on the surface beside it, NaN where there is none.
   std::vector<Vector3d> point;
   std::vector<double> inverse_depth_sigma;  ///< of 1 / point.z, per metre
+  std::vector<std::uint8_t> seen_through;   ///< how many views of the past seconds saw something farther in its place
+  std::vector<std::uint8_t> seen_there;     ///< and how many saw a surface there
 
   span<OlderFrame> frames() noexcept { return {frames_.data(), count_}; }
   span<const OlderFrame> frames() const noexcept { return {frames_.data(), count_}; }
@@ -71,6 +73,8 @@ class Sightings {
     surfaces.clear();
     point.clear();
     inverse_depth_sigma.clear();
+    seen_through.clear();
+    seen_there.clear();
     count_ = 0;
   }
 
@@ -80,6 +84,8 @@ class Sightings {
     frame.of_feature.assign(feature_count, Sighting{});
     point.resize(feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     inverse_depth_sigma.resize(feature_count, std::numeric_limits<double>::infinity());
+    seen_through.resize(feature_count, 0);
+    seen_there.resize(feature_count, 0);
     frame.of_surface.clear();
     return frame;
   }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame_history.hpp"
@@ -41,6 +42,11 @@ class LookBack {
     int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
     int surrounding_px = 40;         ///< how far a feature without a depth looks for the surfaces beside it
     double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
+    double borrowed_sigmas = 2.0;    ///< of a depth that an older frame measured, times the sensor's
+    double shortest_through_s = 0.3;  ///< views newer than this do not ask who came
+    double through_m = 0.08;          ///< what a view saw must be this much farther …
+    double through_m_s = 0.02;        ///< … and this much more per second of drift …
+    double through_sigmas = 4.0;      ///< … and so many standard deviations of both depths
     float clearly_alike = 0.12f;     ///< a feature no more unlike in the last and in the oldest frame …
     float clearly_there_px = 0.7f;   ///< … and no farther from its place is not looked for in those between
     PatchSearch search = {3, 0.2f};  ///< a standing point is not three pixels away: more steps find look-alikes
@@ -82,9 +88,12 @@ class LookBack {
         look_beside(i, history, current, camera, noise, matches);
       }
     }
+    look_through(history.space(), current, filter_from_current, camera, noise, matches);
   }
 
  private:
+  static constexpr std::size_t kLooks = 3;  // older frames
+
   /// The last frame, the oldest that is needed, and one between them (their geometric mean in time); 0 is none. The
   /// oldest is the first against which the slowest mover of interest makes a detectable step at the scene's median
   /// depth, and at the least the third: one look can be a reflection.
@@ -95,13 +104,38 @@ class LookBack {
     const double wanted_s =
         std::min(options.detectable_sigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
     const auto elapsed_s = [&](std::size_t age) { return current.timestamp_s - history.back(age).timestamp_s; };
-    constexpr std::size_t kLooks = 3;
     std::size_t oldest = 1;
     while (oldest < history.size() &&
            (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < options.longest_at_low_rate_s)))
       ++oldest;
     const std::size_t between = std::max<std::size_t>(2, std::lround(std::sqrt(static_cast<double>(oldest))));
     return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
+  }
+
+  /// Counts the views of the past seconds that saw something farther where each feature is now.
+  template <class Camera, class Noise>
+  void look_through(const SpaceHistory& space, const FrameView& current, const Pose& filter_from_current,
+                    const Camera& camera, const Noise& noise, Matches& matches) const {
+    for (std::size_t age = 1; age <= space.size(); ++age) {
+      const PooledDepth& view = space.back(age);
+      const double elapsed_s = current.timestamp_s - view.timestamp_s;
+      if (elapsed_s < options.shortest_through_s) continue;
+      const Pose view_from_current = orthonormalized(view.filter_from_camera.inverse() * filter_from_current);
+      for (std::size_t i = 0; i < matches.size(); ++i) {
+        if (!matches.current.has_depth(i)) continue;
+        const Vector3d there = view_from_current * matches.current.point[i];
+        if (!(there.z() > SurfaceSearch::kNearest_m)) continue;
+        const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
+        const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
+        if (!(nearest_m > 0)) continue;
+        const double margin_m = options.through_m + options.through_m_s * elapsed_s +
+                                options.through_sigmas * (noise.sigma(there.z()) + noise.sigma(nearest_m));
+        if (nearest_m > there.z() + margin_m)
+          ++matches.sightings.seen_through[i];
+        else if (nearest_m > there.z() - margin_m)
+          ++matches.sightings.seen_there[i];
+      }
+    }
   }
 
   template <class Camera, class Noise>
@@ -117,18 +151,59 @@ class LookBack {
     }
   }
 
-  /// A feature without a depth lies on one of the surfaces beside it: the one on which it looks more as if it stood.
+  /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
+  /// surfaces beside it. Taken is where it looks most as if it stood.
   template <class Camera, class Noise>
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Matches& matches) const {
     const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i], options.surrounding_px, guard);
     if (!(beside.farthest_m > 0)) return;
-    const auto dissimilarity_at = [&](double depth_m) {
-      return look(i, depth_m, options.supposed_spread / depth_m, history, current, camera, noise, matches);
+    std::array<double, 2 + kLooks> candidates{beside.farthest_m, beside.nearest_m};
+    std::size_t count =
+        beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m) ? 1 : 2;
+    const std::size_t supposed = count;
+    for (const OlderFrame& older : std::as_const(matches.sightings).frames()) {
+      const double borrowed_m = borrowed_depth_m(i, beside, history.back(older.age).view(), older, camera, matches);
+      if (borrowed_m > 0 && count < candidates.size()) candidates[count++] = borrowed_m;
+    }
+    float least = std::numeric_limits<float>::infinity();
+    std::size_t best = 0, last = count;
+    const auto look_at = [&](std::size_t c) {
+      const double depth_m = candidates[c];
+      const double spread = c < supposed ? options.supposed_spread / depth_m
+                                         : options.borrowed_sigmas * noise.sigma(depth_m) / (depth_m * depth_m);
+      last = c;
+      return look(i, depth_m, spread, history, current, camera, noise, matches);
     };
-    const float far = dissimilarity_at(beside.farthest_m);
-    if (beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m)) return;
-    if (dissimilarity_at(beside.nearest_m) > far) dissimilarity_at(beside.farthest_m);
+    for (std::size_t c = count; c-- > 0;) {
+      const float dissimilarity = look_at(c);
+      if (!(dissimilarity < least)) continue;
+      least = dissimilarity;
+      best = c;
+    }
+    if (best != last) look_at(best);
+  }
+
+  /// The depth that an older frame measured where the feature would be if it stood: found by going to and fro, from the
+  /// farthest surface beside it. 0 where there is none.
+  template <class Camera>
+  double borrowed_depth_m(std::size_t i, const SurroundingDepth& beside, const FrameView& view, const OlderFrame& older,
+                          const Camera& camera, const Matches& matches) const {
+    constexpr int kRounds = 3;
+    double depth_m = beside.farthest_m;
+    const Pose current_from_older = older.reference_from_current.inverse();
+    for (int round = 0; round < kRounds; ++round) {
+      const Vector3d there =
+          older.reference_from_current * camera.back_project(matches.current.undistorted[i], depth_m);
+      if (!(there.z() > SurfaceSearch::kNearest_m)) return 0.0;
+      const Vector2d pixel = camera.project(there);
+      const double measured_m = guard.at(view, camera.distort(pixel).template cast<float>());
+      if (!(measured_m > 0)) return 0.0;
+      const double now_m = (current_from_older * camera.back_project(pixel, measured_m)).z();
+      if (std::abs(now_m - depth_m) < 0.1 * options.same_surface.at(depth_m)) return now_m;
+      depth_m = now_m;
+    }
+    return 0.0;
   }
 
   /// Looks for a feature in every older frame.

@@ -38,6 +38,8 @@ class SightingScore {
     double most_from_depth = 8.0;       ///< of the depth
     double expected_patch = 1.5;        ///< what a standing point scores by place and look on average
     double expected_depth = 1.0;        ///< and by depth
+    double per_view_through = 4.0;      ///< of each view of the past seconds that saw through to something farther
+    double most_from_through = 8.0;
     double single_share = 0.7;          ///< of its evidence in the score where one frame alone saw the place
   };
   Options options;
@@ -55,10 +57,13 @@ class SightingScore {
         second = std::max(second, std::min(most, evidence));
         most = std::max(most, evidence);
       }
+      const double through = std::min(options.per_view_through * matches.sightings.seen_through[i], options.most_from_through);
       if (second > kNever)
-        scores[i].value = static_cast<float>(0.5 * (most + second));
+        scores[i].value = static_cast<float>(0.5 * (most + second) + through);
       else if (most > kNever)
-        scores[i].value = static_cast<float>(options.single_share * most);
+        scores[i].value = static_cast<float>(options.single_share * most + through);
+      else if (through > 0)
+        scores[i].value = static_cast<float>(through);
     }
   }
 

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where was space seen free?   Small depth images of the past seconds: what stands now where a camera saw through came
+// there. It needs neither a match nor texture.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+
+namespace stillpoint {
+
+/// A depth image, pooled: the nearest depth of each block of pixels.
+struct PooledDepth {
+  std::vector<float> nearest_m;  ///< row by row; 0 where less than half of the block has a depth
+  int width = 0, height = 0;
+  float block_px = 4;  ///< pixels of the gray image to a side of a block
+  double timestamp_s = 0.0;
+  Pose filter_from_camera = Pose::Identity();
+
+  /// The nearest depth within one block around a pixel, metres; 0 where a block there is unknown or outside.
+  float nearest_around(const Vector2f& pixel) const noexcept {
+    const float u0 = (pixel.x() + 0.5f) / block_px, v0 = (pixel.y() + 0.5f) / block_px;
+    if (!(u0 >= 1.0f && v0 >= 1.0f && u0 < static_cast<float>(width - 1) && v0 < static_cast<float>(height - 1)))
+      return 0.0f;
+    const int u = static_cast<int>(u0), v = static_cast<int>(v0);
+    float nearest = std::numeric_limits<float>::infinity();
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i) nearest = std::min(nearest, nearest_m[index(u + i, v + j)]);
+    return nearest;
+  }
+
+  void assign(const FrameView& frame, const Pose& pose) {
+    constexpr int kBlocksAcross = 160;
+    block_px = std::max(1.0f, static_cast<float>(frame.gray.width) / kBlocksAcross);
+    width = static_cast<int>(static_cast<float>(frame.gray.width) / block_px);
+    height = static_cast<int>(static_cast<float>(frame.gray.height) / block_px);
+    timestamp_s = frame.timestamp_s;
+    filter_from_camera = pose;
+    nearest_m.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
+    const ImageView& depth = frame.depth.image;
+    if (depth.empty()) return;
+    const float across = static_cast<float>(depth.width) / static_cast<float>(width);
+    const float down = static_cast<float>(depth.height) / static_cast<float>(height);
+    for (int v = 0; v < height; ++v)
+      for (int u = 0; u < width; ++u) {
+        const int first_u = static_cast<int>(static_cast<float>(u) * across);
+        const int last_u = std::max(first_u + 1, static_cast<int>(static_cast<float>(u + 1) * across));
+        const int first_v = static_cast<int>(static_cast<float>(v) * down);
+        const int last_v = std::max(first_v + 1, static_cast<int>(static_cast<float>(v + 1) * down));
+        int known = 0;
+        float nearest = std::numeric_limits<float>::infinity();
+        for (int y = first_v; y < last_v; ++y)
+          for (int x = first_u; x < last_u; ++x) {
+            const float depth_m = frame.depth.metres(x, y);
+            if (!(depth_m > 0.0f)) continue;
+            ++known;
+            nearest = std::min(nearest, depth_m);
+          }
+        if (2 * known >= (last_u - first_u) * (last_v - first_v)) nearest_m[index(u, v)] = nearest;
+      }
+  }
+
+ private:
+  std::size_t index(int u, int v) const noexcept {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
+  }
+};
+
+/// A ring of pooled depth images, one each `kSpacing_s`. Memory is reused.
+class SpaceHistory {
+ public:
+  static constexpr double kSpacing_s = 0.4;
+  static constexpr std::size_t kViews = 12;
+
+  void clear() noexcept { size_ = 0; }
+
+  void push(const FrameView& frame, const Pose& filter_from_camera) {
+    if (size_ > 0) {
+      const double since_s = frame.timestamp_s - back(1).timestamp_s;
+      if (since_s < kSpacing_s - 1e-3) return;
+    }
+    ring_[head_].assign(frame, filter_from_camera);
+    head_ = (head_ + 1) % ring_.size();
+    size_ = std::min(size_ + 1, ring_.size());
+  }
+
+  std::size_t size() const noexcept { return size_; }
+  /// 1 is the newest.
+  const PooledDepth& back(std::size_t age) const noexcept { return ring_[(head_ + ring_.size() - age) % ring_.size()]; }
+
+ private:
+  std::vector<PooledDepth> ring_{kViews};
+  std::size_t head_ = 0, size_ = 0;
+};
+
+}  // namespace stillpoint
