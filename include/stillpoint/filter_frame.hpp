@@ -109,6 +109,7 @@ class FrameFilter : private PolicyContract<Policies> {
     Timings& timings = result_.timings_;
     workspace_.rewind();
     matches_.begin(pixels_);
+    matches_.pixel_scale = pixel_scale(camera);
     matches_.elapsed_s = frame.timestamp_s - reference.timestamp_s;
 
     const MotionPrior expected = expectation_.at(frame.timestamp_s);

@@ -35,13 +35,14 @@ class SurfaceClusters {
     double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond `nearest_m`: three Kinect sigmas
     double nearest_m = 0.4;
     float lowest = -2.0f, highest = 10.0f;  ///< a single score is held between these, nats
-    float own_share = 0.3f;         ///< of a feature's own score in its log-odds; the rest is its cluster's mean
+    float most_shared = 4.0f;             ///< of a cluster's mean
+    float own_share = 0.5f;         ///< of a feature's own score in its log-odds; the rest is its cluster's mean
     float split_variance = 9.0f;    ///< a cluster whose scores vary less is one population, squared nats
     float split_explained = 0.8f;   ///< share of the variance that two populations must explain
     float neighbour_px = 25.0f;     ///< how far a feature without evidence looks for others
     float neighbour_share = 0.7f;   ///< of their log-odds it takes over
     float depthless_own = 0.4f;     ///< share of its own score in the log-odds of a feature without a depth
-    float depthless_shift = -3.0f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
+    float depthless_shift = -1.5f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
     float alone = -1.0f;            ///< log-odds of a feature that knows nothing and has no neighbours
     float dynamic_shift = 2.4f;     ///< what a dynamic region adds to the log-odds
     float outside_shift = -0.6f;    ///< what lies in no region when a detector has found something dynamic
@@ -56,7 +57,8 @@ class SurfaceClusters {
     const Workspace::Scope scope(workspace);
     const span<float> common = workspace.take<float>(matches.size(), kNone);
     share_in_clusters(matches, scores, regions, labels, common, workspace);
-    const PixelGrid grid(matches.current.pixel, 0.5f * options.neighbour_px, workspace,
+    const float neighbour_px = matches.pixel_scale * options.neighbour_px;
+    const PixelGrid grid(matches.current.pixel, 0.5f * neighbour_px, workspace,
                          [&](std::size_t i) { return !std::isnan(common[i]); });
     const auto level = static_cast<float>(threshold.level);
     const bool any_dynamic = std::any_of(regions.detections.begin(), regions.detections.end(),
@@ -65,10 +67,12 @@ class SurfaceClusters {
       Label& label = labels[i];
       if (!std::isnan(common[i])) {
         const float own = scores[i].scored() ? held(scores[i]) : common[i];
-        label.log_odds = options.own_share * own + (1 - options.own_share) * common[i] - level;
+        label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common[i], options.most_shared) - level;
         label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
+        if (!matches.current.has_depth(i) && i < matches.sightings.point.size() && matches.sightings.is_guess(i))
+          label.log_odds += options.depthless_shift;
       } else {
-        label.log_odds = without_depth(scores[i], matches.current.pixel[i], grid, common, level);
+        label.log_odds = without_depth(scores[i], matches.current.pixel[i], neighbour_px, grid, common, level);
         label.reason = scores[i].scored()                        ? Reason::consistent
                        : matches.state[i] == MatchState::outside ? Reason::outside_image
                                                                  : Reason::no_depth;
@@ -95,13 +99,21 @@ class SurfaceClusters {
     return std::clamp(score.value, options.lowest, options.highest);
   }
 
+  /// Of the surface that a feature lies on: measured, borrowed from an older frame, or that of what is beside it; 0 none.
+  static double surface_depth_m(const Matches& matches, std::size_t i) noexcept {
+    if (matches.current.has_depth(i)) return matches.current.depth_m[i];
+    if (i >= matches.sightings.point.size()) return 0.0;
+    const double supposed_m = matches.sightings.point[i].z();
+    return supposed_m > 0 ? supposed_m : 0.0;
+  }
+
   /// `common[i]` becomes the mean score of the population of feature i; NaN where it has no depth.
   void share_in_clusters(const Matches& matches, span<const FeatureScore> scores, const Regions& regions,
                          span<Label> labels, span<float> common, Workspace& workspace) const {
     const span<std::uint32_t> member = workspace.take<std::uint32_t>(matches.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < matches.size(); ++i)
-      if (matches.current.has_depth(i)) member[count++] = static_cast<std::uint32_t>(i);
+      if (surface_depth_m(matches, i) > 0) member[count++] = static_cast<std::uint32_t>(i);
     if (count == 0) return;
     PointArrays points(count, workspace);
     // ∫ dz / extent(z) with extent a + b (z − nearest)²: depth in units of its own noise.
@@ -111,9 +123,9 @@ class SurfaceClusters {
     for (std::size_t j = 0; j < count; ++j) {
       const std::size_t i = member[j];
       constexpr double kApart = 1000.0;  // regions share no cluster
-      const Vector2d lateral = matches.current.pixel[i].cast<double>() / options.extent_px;
+      const Vector2d lateral = matches.current.pixel[i].cast<double>() / (options.extent_px * static_cast<double>(matches.pixel_scale));
       points.set(j, {lateral.x(), lateral.y(),
-                     whitened(matches.current.depth_m[i]) + kApart * (regions.of_feature[i].dynamic_region + 1)});
+                     whitened(surface_depth_m(matches, i)) + kApart * (regions.of_feature[i].dynamic_region + 1)});
     }
     const std::size_t wanted = std::max(options.fewest_clusters, count / options.features_per_cluster);
     Random random(options.seed);
@@ -182,18 +194,19 @@ class SurfaceClusters {
   }
 
   /// Its own score, where a place was supposed for it, and its neighbours'.
-  float without_depth(const FeatureScore& score, const Vector2f& pixel, const PixelGrid& grid, span<const float> common,
-                      float level) const {
-    const float others = from_neighbours(pixel, grid, common, level);
+  float without_depth(const FeatureScore& score, const Vector2f& pixel, float reach_px, const PixelGrid& grid,
+                      span<const float> common, float level) const {
+    const float others = from_neighbours(pixel, reach_px, grid, common, level);
     const float own_share = score.scored() ? options.depthless_own : 0.0f;
     const float own = score.scored() ? held(score) - level : 0.0f;
-    return own_share * own + (1.0f - own_share) * others + options.depthless_shift;
+    return own_share * own + (1.0f - own_share) * others;
   }
 
-  float from_neighbours(const Vector2f& pixel, const PixelGrid& grid, span<const float> common, float level) const {
-    const float reach_sq = options.neighbour_px * options.neighbour_px;
+  float from_neighbours(const Vector2f& pixel, float reach_px, const PixelGrid& grid, span<const float> common,
+                        float level) const {
+    const float reach_sq = reach_px * reach_px;
     float weight = 0, sum = 0;
-    grid.within(pixel, options.neighbour_px, [&](std::size_t j, float squared) {
+    grid.within(pixel, reach_px, [&](std::size_t j, float squared) {
       const float near = 1 - squared / reach_sq;
       weight += near * near;
       sum += near * near * (common[j] - level);

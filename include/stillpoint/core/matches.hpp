@@ -58,10 +58,19 @@ struct Observations {
   }
 };
 
+/// Focal length over 525 px, a Kinect's.
+template <class Camera>
+float pixel_scale(const Camera& camera) noexcept {
+  constexpr double kFocal_px = 525.0;
+  return static_cast<float>(camera.fx() / kFocal_px);
+}
+
 /// All features of a frame. The first `host_count` are the host's key points in their order; a matcher may append
 /// corners of its own behind them, which take part in every stage and in no result.
 struct Matches {
   std::size_t host_count = 0;
+  /// Focal length over 525 px, a Kinect's: lengths in pixels among the options are for that and scale with it.
+  float pixel_scale = 1.0f;
   double elapsed_s = 0;  ///< from the reference frame to the current one
   Observations current;
   Observations reference;  ///< valid where `state` is matched or near_edge

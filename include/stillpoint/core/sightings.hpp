@@ -66,6 +66,12 @@ class Sightings {
   std::vector<std::uint8_t> seen_through;   ///< how many views of the past seconds saw something farther in its place
   std::vector<std::uint8_t> seen_there;     ///< and how many saw a surface there
 
+  /// Whether a feature's depth is a guess between the surfaces beside it: not measured, not borrowed, not bridged.
+  bool is_guess(std::size_t i) const noexcept {
+    constexpr double kKnown = 0.05;  // spread of the inverse depth, of itself
+    return !(inverse_depth_sigma[i] * point[i].z() < kKnown);
+  }
+
   span<OlderFrame> frames() noexcept { return {frames_.data(), count_}; }
   span<const OlderFrame> frames() const noexcept { return {frames_.data(), count_}; }
 

@@ -41,7 +41,7 @@ class CornerTracker {
   template <class Camera>
   void align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
              const Camera& camera) {
-    prepare(reference, current);
+    prepare(reference, current, pixel_scale(camera));
     const Pose guess = coarse_.align(current.depth, current.gray, reference_from_expected, camera);
     const DepthScale to_depth(current.gray, current.depth.image);
     for (std::size_t c = 0; c < corners_.size(); ++c) {
@@ -57,7 +57,7 @@ class CornerTracker {
   }
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
-    prepare(reference, current);
+    prepare(reference, current, matches.pixel_scale);
     for (std::size_t i = 0; i < matches.host_count; ++i)
       if (!(border_distance_px(current.gray, matches.current.pixel[i]) >= 0.0f)) matches.state[i] = MatchState::outside;
     const std::size_t first = matches.size();
@@ -81,7 +81,7 @@ class CornerTracker {
   }
 
   /// Pyramids of both frames, and the corners of the current one. Once for each frame.
-  void prepare(const FrameView& reference, const FrameView& current) {
+  void prepare(const FrameView& reference, const FrameView& current, float scale) {
     if (current_time_s_ == current.timestamp_s) return;
     if (!(reference_time_s_ == reference.timestamp_s)) {
       reference_.build(reference.gray, options.pyramid_levels);
@@ -89,16 +89,18 @@ class CornerTracker {
     }
     current_.build(current.gray, options.pyramid_levels);
     coarse_.add_frame(current_);
-    find_corners();
+    find_corners(scale);
     current_time_s_ = current.timestamp_s;
   }
 
-  void find_corners() {
+  void find_corners(float scale) {
+    constexpr int kSmallestCell_px = 4;  // of that level
     constexpr std::size_t kLevel = 1;  // sharp enough, and a quarter of the pixels
     corners_.clear();
     if (current_.size() > kLevel) {
       workspace_.rewind();
-      grid_corners(current_[kLevel], options.cell_px / 2, options.weakest_corner, corners_, workspace_);
+      const int cell_px = std::max(kSmallestCell_px, rounded(0.5f * scale * static_cast<float>(options.cell_px)));
+      grid_corners(current_[kLevel], cell_px, options.weakest_corner, corners_, workspace_);
       for (Vector2f& corner : corners_) corner = rounded(Pyramid::from_level(corner, kLevel));
     }
     start_.assign(corners_.size(), Vector2f::Zero());

@@ -40,8 +40,11 @@ class LookBack {
     double occlusion_m = 0.15;       ///< a surface this much nearer hides the point …
     double occlusion_sigmas = 4.0;   ///< … and this many standard deviations of both depths more
     int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
-    int surrounding_px = 40;         ///< how far a feature without a depth looks for the surfaces beside it
+    int surrounding_px = 24;         ///< how far a feature without a depth looks for the surfaces beside it
     double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
+    float guess_handicap = 0.3f;     ///< dissimilarity, summed over the older frames, by which a guess must be better
+    float least_contrast = 3.0f;     ///< standard deviation of a patch without depth that can be compared, gray values
+    double bridged_spread = 0.03;    ///< the same where all that is beside it is one surface
     double borrowed_sigmas = 2.0;    ///< of a depth that an older frame measured, times the sensor's
     double shortest_through_s = 0.3;  ///< views newer than this do not ask who came
     double through_m = 0.08;          ///< what a view saw must be this much farther …
@@ -122,8 +125,9 @@ class LookBack {
       if (elapsed_s < options.shortest_through_s) continue;
       const Pose view_from_current = orthonormalized(view.filter_from_camera.inverse() * filter_from_current);
       for (std::size_t i = 0; i < matches.size(); ++i) {
-        if (!matches.current.has_depth(i)) continue;
-        const Vector3d there = view_from_current * matches.current.point[i];
+        const Vector3d& point = matches.sightings.point[i];
+        if (matches.sightings.is_guess(i)) continue;
+        const Vector3d there = view_from_current * point;
         if (!(there.z() > SurfaceSearch::kNearest_m)) continue;
         const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
         const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
@@ -156,27 +160,28 @@ class LookBack {
   template <class Camera, class Noise>
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Matches& matches) const {
-    const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i], options.surrounding_px, guard);
+    const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i], scaled_px(options.surrounding_px, camera), guard);
     if (!(beside.farthest_m > 0)) return;
     std::array<double, 2 + kLooks> candidates{beside.farthest_m, beside.nearest_m};
     std::size_t count =
         beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m) ? 1 : 2;
     const std::size_t supposed = count;
     for (const OlderFrame& older : std::as_const(matches.sightings).frames()) {
-      const double borrowed_m = borrowed_depth_m(i, beside, history.back(older.age).view(), older, camera, matches);
+      const double borrowed_m = borrowed_depth_m(i, beside.farthest_m, history.back(older.age).view(), older, camera, matches);
       if (borrowed_m > 0 && count < candidates.size()) candidates[count++] = borrowed_m;
     }
     float least = std::numeric_limits<float>::infinity();
-    std::size_t best = 0, last = count;
+    std::size_t best = 0, last = count;  // candidates
     const auto look_at = [&](std::size_t c) {
       const double depth_m = candidates[c];
-      const double spread = c < supposed ? options.supposed_spread / depth_m
+      const double supposed_spread = supposed > 1 ? options.supposed_spread : options.bridged_spread;
+      const double spread = c < supposed ? supposed_spread / depth_m
                                          : options.borrowed_sigmas * noise.sigma(depth_m) / (depth_m * depth_m);
       last = c;
       return look(i, depth_m, spread, history, current, camera, noise, matches);
     };
     for (std::size_t c = count; c-- > 0;) {
-      const float dissimilarity = look_at(c);
+      const float dissimilarity = look_at(c) + (c < supposed ? options.guess_handicap : 0.0f);
       if (!(dissimilarity < least)) continue;
       least = dissimilarity;
       best = c;
@@ -187,10 +192,10 @@ class LookBack {
   /// The depth that an older frame measured where the feature would be if it stood: found by going to and fro, from the
   /// farthest surface beside it. 0 where there is none.
   template <class Camera>
-  double borrowed_depth_m(std::size_t i, const SurroundingDepth& beside, const FrameView& view, const OlderFrame& older,
+  double borrowed_depth_m(std::size_t i, double start_m, const FrameView& view, const OlderFrame& older,
                           const Camera& camera, const Matches& matches) const {
     constexpr int kRounds = 3;
-    double depth_m = beside.farthest_m;
+    double depth_m = start_m;
     const Pose current_from_older = older.reference_from_current.inverse();
     for (int round = 0; round < kRounds; ++round) {
       const Vector3d there =
@@ -268,11 +273,13 @@ class LookBack {
       sighting.state = measured_m < there.z() - margin_m ? SightingState::occluded : SightingState::seen;
     }
     if (patch == nullptr || sighting.state == SightingState::occluded) return sighting;
-    if (beside_occluder(older, pixel, there.z() - margin_m)) return sighting;
+    if (beside_occluder(older, pixel, there.z() - margin_m, scaled_px(options.occluder_reach_px, camera))) return sighting;
     PatchSearch search = options.search;
     search.warp = view_warp(camera, point, there, reference_from_current);
     const PatchFit fit = find_patch(*patch, older.gray, pixel, search);
     if (!fit.inside) return sighting;
+    // Without depth and without texture there is nothing to compare with: a hand before the lens, a blown-out lamp.
+    if (!(measured_m > 0) && !(fit.contrast > options.least_contrast)) return sighting;
     sighting.state = SightingState::seen;
     sighting.dissimilarity = fit.dissimilarity;
     sighting.offset_px = fit.offset.norm();
@@ -280,11 +287,17 @@ class LookBack {
     return sighting;
   }
 
+  template <class Camera>
+  static int scaled_px(int length_px, const Camera& camera) noexcept {
+    return rounded(pixel_scale(camera) * static_cast<float>(length_px));
+  }
+
   /// Does something nearer cover a part of the patch? What a mover has just uncovered looks changed and stood still.
-  bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m) const noexcept {
-    if (frame.depth.empty() || options.occluder_reach_px <= 0) return false;
+  bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m,
+                       int reach_px) const noexcept {
+    if (frame.depth.empty() || reach_px <= 0) return false;
     const DepthScale to_depth(frame.gray, frame.depth.image);
-    for (const int ring_px : {(options.occluder_reach_px + 1) / 2, options.occluder_reach_px}) {
+    for (const int ring_px : {(reach_px + 1) / 2, reach_px}) {
       std::array<int, 3> u, v;
       for (std::size_t k = 0; k < 3; ++k) {
         const Vector2f at = to_depth(pixel.array() + static_cast<float>((static_cast<int>(k) - 1) * ring_px));

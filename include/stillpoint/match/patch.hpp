@@ -49,6 +49,7 @@ struct Patch {
 struct PatchFit {
   Vector2f offset = Vector2f::Zero();  ///< from where the search began, pixels
   float dissimilarity = 2.0f;  ///< 1 − zero-mean normalised cross-correlation: 0 alike, 1 unrelated, 2 inverted
+  float contrast = 0;          ///< standard deviation of the gray values there
   bool inside = false;         ///< false: the patch left the image
 };
 
@@ -215,6 +216,7 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
     const float dissimilarity = 1.0f - likeness / std::sqrt(patch.energy * energy + 1e-3f);
     if (dissimilarity < best.dissimilarity) {
       best.dissimilarity = dissimilarity;
+      best.contrast = std::sqrt(energy / static_cast<float>(patch.count));
       best.offset = offset;
     }
     if (!(determinant > 0)) break;

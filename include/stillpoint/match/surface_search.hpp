@@ -11,6 +11,7 @@
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/sightings.hpp"
 #include "stillpoint/match/patch.hpp"
 
@@ -33,12 +34,14 @@ struct SurfaceSearch {
       return camera.back_project(camera.undistort(pixel.template cast<double>()), guard.at(current, pixel));
     };
     surfaces.clear();
-    for (int v = step_px / 2; v < current.gray.height; v += step_px) {
-      for (int u = step_px / 2; u < current.gray.width; u += step_px) {
+    const int step = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
+    const int reach = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(reach_px)));
+    for (int v = step / 2; v < current.gray.height; v += step) {
+      for (int u = step / 2; u < current.gray.width; u += step) {
         const Vector3d centre = point_at(u, v);
         if (!(centre.z() > 0)) continue;
-        const Vector3d left = point_at(u - reach_px, v), right = point_at(u + reach_px, v);
-        const Vector3d above = point_at(u, v - reach_px), below = point_at(u, v + reach_px);
+        const Vector3d left = point_at(u - reach, v), right = point_at(u + reach, v);
+        const Vector3d above = point_at(u, v - reach), below = point_at(u, v + reach);
         if (!(left.z() > 0 && right.z() > 0 && above.z() > 0 && below.z() > 0)) continue;
         const double bend_m =
             std::max(std::abs(left.z() + right.z() - 2 * centre.z()), std::abs(above.z() + below.z() - 2 * centre.z()));

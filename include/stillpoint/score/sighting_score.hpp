@@ -36,7 +36,7 @@ class SightingScore {
     double most_from_place = 8.0;       ///< −log ε of the found place, nats
     double most_from_look = 6.0;        ///< of the dissimilarity
     double most_from_depth = 8.0;       ///< of the depth
-    double expected_patch = 1.5;        ///< what a standing point scores by place and look on average
+    double expected_patch = 2.5;        ///< what a standing point scores by place and look on average
     double expected_depth = 1.0;        ///< and by depth
     double per_view_through = 4.0;      ///< of each view of the past seconds that saw through to something farther
     double most_from_through = 8.0;
