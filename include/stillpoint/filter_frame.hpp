@@ -113,16 +113,17 @@ class FrameFilter : private PolicyContract<Policies> {
     matches_.elapsed_s = frame.timestamp_s - reference.timestamp_s;
 
     const MotionPrior expected = expectation_.at(frame.timestamp_s);
+    Pose rough_motion = Pose::Identity();  // current_from_reference
 
     timings.run(Stage::prior, [&] { prior.regions(frame, regions_); });
     timings.run(Stage::match, [&] {
-      align(matcher, reference, frame, expected, camera);
+      rough_motion = align(matcher, reference, frame, expected, camera);
       matcher.match(reference, frame, matches_);
       lift(frame, depth_lookup, camera, depth_noise, matches_.current);
       lift(reference, depth_lookup, camera, depth_noise, matches_.reference);
       regions_.locate(matches_.current.pixel, matches_.current.depth_m);
     });
-    survey(*this, history_, frame, expected, matches_, workspace_, timings);
+    survey(*this, history_, frame, rough_motion, matches_, workspace_, timings);
     timings.run(Stage::motion, [&] {
       motion = ego_motion.estimate(matches_, regions_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
@@ -140,6 +141,7 @@ class FrameFilter : private PolicyContract<Policies> {
                 [&] { classifier.classify(matches_, scores, threshold, regions_, labels, workspace_); });
     timings.run(Stage::gate, [&] { learn(gate, matches_, labels); });
     timings.run(Stage::memory, [&] { memory.update(matches_, motion, scores, labels, workspace_); });
+    timings.run(Stage::match, [&] { learn(matcher, matches_, labels); });
     timings.run(Stage::verdict, [&] {
       mask_prediction.remember(matches_, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s);
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);

@@ -58,25 +58,28 @@ template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().rese
 // clang-format on
 
 /// Before matching: a matcher may align the frames roughly.
+/// @return current_from_reference: what is expected, where it does not
 template <class Matcher, class Camera>
-void align(Matcher& matcher, const FrameView& reference, const FrameView& current, const MotionPrior& expected,
+Pose align(Matcher& matcher, const FrameView& reference, const FrameView& current, const MotionPrior& expected,
            const Camera& camera) {
+  const Pose guess = expected.current_from_reference ? *expected.current_from_reference : Pose::Identity();
   if constexpr (aligns<Matcher, Camera>::value)
-    matcher.align(reference, current,
-                  expected.current_from_reference ? inverted(*expected.current_from_reference) : Pose::Identity(),
-                  camera);
+    return inverted(matcher.align(reference, current, inverted(guess), camera));
+  else
+    return guess;
 }
 
 /// Before the motion: a matcher may survey older frames, and a memory may know features and surfaces; it fills their
 /// trust.
 /// @param stages  a `FrameFilter`
+/// @param current_from_reference  roughly
 template <class Stages>
-void survey(Stages& stages, const FrameHistory& history, const FrameView& frame, const MotionPrior& expected,
+void survey(Stages& stages, const FrameHistory& history, const FrameView& frame, const Pose& current_from_reference,
             Matches& matches, Workspace& workspace, Timings& timings) {
   using Memory = typename Stages::Memory;
   if constexpr (looks_back<typename Stages::Matcher, typename Stages::Camera, typename Stages::DepthNoise>::value) {
     Motion motion;
-    if (expected.current_from_reference) motion.current_from_reference = *expected.current_from_reference;
+    motion.current_from_reference = current_from_reference;
     timings.run(Stage::match, [&] {
       stages.matcher.survey(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
                             matches, workspace);
@@ -109,10 +112,10 @@ void look_back(Stages& stages, const FrameHistory& history, const FrameView& fra
   }
 }
 
-/// Between classifier and memory: a gate may learn from what is known to stand.
-template <class Gate>
-void learn(Gate& gate, const Matches& matches, span<const Label> labels) {
-  if constexpr (learns<Gate>::value) gate.learn(matches, labels);
+/// A gate may learn from what is known to stand, between classifier and memory; a matcher from what moves, after it.
+template <class Policy>
+void learn(Policy& policy, const Matches& matches, span<const Label> labels) {
+  if constexpr (learns<Policy>::value) policy.learn(matches, labels);
 }
 
 /// A prior or a gate may remember frames: these are forgotten with all others.

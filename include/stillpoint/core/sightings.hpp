@@ -64,7 +64,6 @@ class Sightings {
   std::vector<Vector3d> point;
   std::vector<double> inverse_depth_sigma;  ///< of 1 / point.z, per metre
   std::vector<std::uint8_t> seen_through;   ///< how many views of the past seconds saw something farther in its place
-  std::vector<std::uint8_t> seen_there;     ///< and how many saw a surface there
 
   /// Whether a feature's depth is a guess between the surfaces beside it: not measured, not borrowed, not bridged.
   bool is_guess(std::size_t i) const noexcept {
@@ -80,7 +79,6 @@ class Sightings {
     point.clear();
     inverse_depth_sigma.clear();
     seen_through.clear();
-    seen_there.clear();
     count_ = 0;
   }
 
@@ -91,7 +89,6 @@ class Sightings {
     point.resize(feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     inverse_depth_sigma.resize(feature_count, std::numeric_limits<double>::infinity());
     seen_through.resize(feature_count, 0);
-    seen_there.resize(feature_count, 0);
     frame.of_surface.clear();
     return frame;
   }

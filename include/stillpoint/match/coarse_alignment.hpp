@@ -18,6 +18,7 @@
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/match/blurred_image.hpp"
 #include "stillpoint/match/pyramid.hpp"
+#include "stillpoint/match/static_weights.hpp"
 
 namespace stillpoint {
 
@@ -59,17 +60,21 @@ class CoarseAlignment {
     return best.reference_from_current;
   }
 
+  StaticWeights reference_weights;  ///< how much of the reference frame stood still
+
   /// Median depth of the current frame, metres.
   double typical_depth_m() const noexcept { return typical_depth_m_; }
 
   void reset() noexcept {
     for (auto* images : {&reference_, &current_})
       for (BlurredImage& image : *images) image.clear();
+    reference_weights.clear();
   }
 
  private:
   static constexpr int kWidest_px = 96;        // of the finer image: 80 x 60 of 640 x 480
   static constexpr float kBlur_px = 2.5f;      // standard deviation in the coarser one, as Klein and Murray's
+  static constexpr float kGuessWeight = 0.25f;
   static constexpr std::size_t kFewestPoints = 60;
   static constexpr int kMostSteps = 12;
   static constexpr float kCutoff = 0.6f;       // of a gray-value difference, in standard deviations of the image
@@ -77,6 +82,7 @@ class CoarseAlignment {
   struct Point {
     Vector3d point;  ///< in the current camera, metres
     float value;     ///< of the current image, normalised
+    float weight;    ///< less where the depth is a guess
   };
   struct Estimate {
     Pose reference_from_current = Pose::Identity();
@@ -99,7 +105,7 @@ class CoarseAlignment {
         if (depth_m > 0) depths_m_.push_back(depth_m);
         points_.push_back({camera.back_project(camera.undistort(pixel.template cast<double>()), 1.0) *
                                (depth_m > 0 ? depth_m : -1.0),
-                           image.at(u, v)});
+                           image.at(u, v), depth_m > 0 ? 1.0f : kGuessWeight});
       }
     if (depths_m_.empty()) return points_.clear();
     typical_depth_m_ = median_in_place(span<double>(depths_m_));
@@ -116,16 +122,24 @@ class CoarseAlignment {
 
   template <class Camera>
   double cost_of(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
-    double sum = 0;
+    double sum = 0, weights = 0;
     for (const Point& point : points_) {
       const Vector3d there = pose * point.point;
       float value = 0;
       Vector2f slope;
-      sum += there.z() > kNearest_m && image.sample(pixel_of(there, camera), value, slope)
-                 ? loss(static_cast<double>(value - point.value))
-                 : kUnseen;
+      auto weight = static_cast<double>(point.weight);
+      double cost = kUnseen;
+      if (there.z() > kNearest_m) {
+        const Vector2f pixel = pixel_of(there, camera);
+        if (image.sample(pixel, value, slope)) {
+          weight *= static_cast<double>(reference_weights.at(pixel));
+          cost = loss(static_cast<double>(value - point.value));
+        }
+      }
+      sum += weight * cost;
+      weights += weight;
     }
-    return sum / static_cast<double>(points_.size());
+    return weights > 0 ? sum / weights : 1.0;
   }
 
   template <class Camera>
@@ -144,7 +158,9 @@ class CoarseAlignment {
         const Vector3d there = pose * point.point;
         float value = 0;
         Vector2f slope;
-        if (!(there.z() > kNearest_m) || !image.sample(pixel_of(there, camera), value, slope)) continue;
+        if (!(there.z() > kNearest_m)) continue;
+        const Vector2f pixel = pixel_of(there, camera);
+        if (!image.sample(pixel, value, slope)) continue;
         const auto residual = static_cast<double>(value - point.value);
         const double rest = 1.0 - residual * residual / double{kCutoff * kCutoff};
         if (!(rest > 0)) continue;
@@ -154,8 +170,9 @@ class CoarseAlignment {
         const Vector3d g(gx, gy, -(gx * there.x() + gy * there.y()) / there.z());
         Vector6d row;
         row << there.cross(g), g;
-        normal.template selfadjointView<Eigen::Lower>().rankUpdate(row, rest * rest);
-        gradient += rest * rest * residual * row;
+        const double weight = rest * rest * static_cast<double>(point.weight * reference_weights.at(pixel));
+        normal.template selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
+        gradient += weight * residual * row;
       }
       const Vector6d x = -normal.template selfadjointView<Eigen::Lower>().ldlt().solve(gradient);
       if (!x.allFinite()) break;

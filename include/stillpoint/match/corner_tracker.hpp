@@ -38,8 +38,9 @@ class CornerTracker {
 
   /// Aligns the frames roughly: says where `match` begins to look for each corner. To be called before it.
   /// @param reference_from_expected  what is expected of the motion
+  /// @return reference_from_current, roughly
   template <class Camera>
-  void align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
+  Pose align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
              const Camera& camera) {
     prepare(reference, current, pixel_scale(camera));
     const Pose guess = coarse_.align(current.depth, current.gray, reference_from_expected, camera);
@@ -54,6 +55,7 @@ class CornerTracker {
       if (there.z() > 0)
         start_[c] = camera.distort(camera.project(there)).template cast<float>() - corners_[c];
     }
+    return guess;
   }
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
@@ -68,6 +70,11 @@ class CornerTracker {
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
+  }
+
+  /// What stood still says where the coming alignment looks.
+  void learn(const Matches& matches, span<const Label> labels) {
+    coarse_.reference_weights.assign(matches, labels, reference_[0].width, reference_[0].height);
   }
 
   void reset() noexcept {

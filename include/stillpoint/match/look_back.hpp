@@ -50,6 +50,8 @@ class LookBack {
     double through_m = 0.08;          ///< what a view saw must be this much farther …
     double through_m_s = 0.02;        ///< … and this much more per second of drift …
     double through_sigmas = 4.0;      ///< … and so many standard deviations of both depths
+    double most_came = 0.6;           ///< share of the surfaces beyond which a view's own pose is in doubt
+    float trust_of_what_came = 0.05f;
     float clearly_alike = 0.12f;     ///< a feature no more unlike in the last and in the oldest frame …
     float clearly_there_px = 0.7f;   ///< … and no farther from its place is not looked for in those between
     PatchSearch search = {3, 0.2f};  ///< a standing point is not three pixels away: more steps find look-alikes
@@ -74,6 +76,7 @@ class LookBack {
     const span<OlderFrame> frames = matches.sightings.frames();
     look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings.surfaces,
                       frames.first(std::min<std::size_t>(frames.size(), 1)));
+    distrust_what_came(history.space(), current, filter_from_expected, camera, noise, matches);
   }
 
   /// Looks for the surfaces once more, and for the features.
@@ -124,22 +127,57 @@ class LookBack {
       const double elapsed_s = current.timestamp_s - view.timestamp_s;
       if (elapsed_s < options.shortest_through_s) continue;
       const Pose view_from_current = orthonormalized(view.filter_from_camera.inverse() * filter_from_current);
-      for (std::size_t i = 0; i < matches.size(); ++i) {
-        const Vector3d& point = matches.sightings.point[i];
-        if (matches.sightings.is_guess(i)) continue;
-        const Vector3d there = view_from_current * point;
-        if (!(there.z() > SurfaceSearch::kNearest_m)) continue;
-        const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
-        const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
-        if (!(nearest_m > 0)) continue;
-        const double margin_m = options.through_m + options.through_m_s * elapsed_s +
-                                options.through_sigmas * (noise.sigma(there.z()) + noise.sigma(nearest_m));
-        if (nearest_m > there.z() + margin_m)
+      for (std::size_t i = 0; i < matches.size(); ++i)
+        if (!matches.sightings.is_guess(i) &&
+            seen_through(view, view_from_current, matches.sightings.point[i], elapsed_s, camera, noise) == Space::free)
           ++matches.sightings.seen_through[i];
-        else if (nearest_m > there.z() - margin_m)
-          ++matches.sightings.seen_there[i];
-      }
     }
+  }
+
+  /// Before the motion is known well: what came within the past seconds has little say in it. A view that sees through
+  /// most of the surfaces is one whose pose is wrong: it says nothing.
+  template <class Camera, class Noise>
+  void distrust_what_came(const SpaceHistory& space, const FrameView& current, const Pose& filter_from_expected,
+                          const Camera& camera, const Noise& noise, Matches& matches) const {
+    span<SurfaceCell> cells = matches.sightings.surfaces;
+    for (std::size_t age = 1; age <= space.size(); ++age) {
+      const PooledDepth& view = space.back(age);
+      const double elapsed_s = current.timestamp_s - view.timestamp_s;
+      if (elapsed_s < options.shortest_through_s) continue;
+      const Pose view_from_current = orthonormalized(view.filter_from_camera.inverse() * filter_from_expected);
+      const auto look = [&](const Vector3d& point) {
+        return seen_through(view, view_from_current, point, elapsed_s, camera, noise);
+      };
+      std::size_t through = 0, there = 0;
+      for (const SurfaceCell& cell : cells) {
+        const Space space_there = look(cell.point);
+        through += space_there == Space::free;
+        there += space_there == Space::occupied;
+      }
+      if (static_cast<double>(through) > options.most_came * static_cast<double>(through + there)) continue;
+      for (SurfaceCell& cell : cells)
+        if (look(cell.point) == Space::free) cell.trust = std::min(cell.trust, options.trust_of_what_came);
+      for (std::size_t i = matches.host_count; i < matches.size(); ++i)
+        if (matches.current.has_depth(i) && look(matches.current.point[i]) == Space::free)
+          matches.trust[i] = std::min(matches.trust[i], options.trust_of_what_came);
+    }
+  }
+
+  enum class Space { unknown, occupied, free };
+
+  template <class Camera, class Noise>
+  Space seen_through(const PooledDepth& view, const Pose& view_from_current, const Vector3d& point, double elapsed_s,
+                     const Camera& camera, const Noise& noise) const {
+    const Vector3d there = view_from_current * point;
+    if (!(there.z() > SurfaceSearch::kNearest_m)) return Space::unknown;
+    const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
+    const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
+    if (!(nearest_m > 0)) return Space::unknown;
+    const double margin_m = options.through_m + options.through_m_s * elapsed_s +
+                            options.through_sigmas * (noise.sigma(there.z()) + noise.sigma(nearest_m));
+    return nearest_m > there.z() + margin_m   ? Space::free
+           : nearest_m > there.z() - margin_m ? Space::occupied
+                                              : Space::unknown;
   }
 
   template <class Camera, class Noise>

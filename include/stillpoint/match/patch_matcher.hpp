@@ -14,11 +14,12 @@ struct PatchMatcher {
   CornerTracker corners;  ///< its settings are `corners.options`
   LookBack older;         ///< and `older.options`
 
-  /// Before `match`, where the motion is expected to be large.
+  /// Before `match`: a rough motion, from which it begins.
+  /// @return reference_from_current
   template <class Camera>
-  void align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
+  Pose align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
              const Camera& camera) {
-    corners.align(reference, current, reference_from_expected, camera);
+    return corners.align(reference, current, reference_from_expected, camera);
   }
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
@@ -38,6 +39,8 @@ struct PatchMatcher {
                  const Camera& camera, const Noise& noise, Matches& matches) const {
     older.look_back(history, current, filter_from_current, camera, noise, matches);
   }
+
+  void learn(const Matches& matches, span<const Label> labels) { corners.learn(matches, labels); }
 
   void reset() noexcept { corners.reset(); }
 };

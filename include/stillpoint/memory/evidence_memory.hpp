@@ -61,14 +61,14 @@ class EvidenceMemory {
       const double depth_m = matches.current.depth_m[i];
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : here + steps.around(here, depth_m);
       recalled_[i] = look_up(points, pixel, depth_m);
-      matches.trust[i] = trust(recalled_[i].suspicion);
+      matches.trust[i] = std::min(matches.trust[i], trust(recalled_[i].suspicion));
       matches.recalled_log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       SurfaceCell& cell = matches.sightings.surfaces[s];
       const double depth_m = cell.point.z();
       recalled_of_cell_[s] = look_up(points, cell.pixel + steps.around(cell.pixel, depth_m), depth_m);
-      cell.trust = trust(recalled_of_cell_[s].suspicion);
+      cell.trust = std::min(cell.trust, trust(recalled_of_cell_[s].suspicion));
     }
   }
 

@@ -58,12 +58,10 @@ class SightingScore {
         most = std::max(most, evidence);
       }
       const double through = std::min(options.per_view_through * matches.sightings.seen_through[i], options.most_from_through);
-      if (second > kNever)
-        scores[i].value = static_cast<float>(0.5 * (most + second) + through);
-      else if (most > kNever)
-        scores[i].value = static_cast<float>(options.single_share * most + through);
-      else if (through > 0)
-        scores[i].value = static_cast<float>(through);
+      const bool is_seen = most > kNever;
+      const double recent = second > kNever ? 0.5 * (most + second) : is_seen ? options.single_share * most : 0.0;
+      if (!is_seen && !(through > 0)) continue;
+      scores[i].value = static_cast<float>(recent + through);
     }
   }
 
