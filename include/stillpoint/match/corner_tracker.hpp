@@ -31,6 +31,7 @@ class CornerTracker {
     float most_dissimilar = 0.3f;    ///< 1 − correlation above which a corner is lost
     float too_vague = 0.5f;          ///< on a coarse level a fit this bad does not move the start of the next
     int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the corner's surface
+    float other_start_px = 8.0f;     ///< a lost corner is looked for where it was expected, if that is so far away
     float border_px = 8.0f;          ///< nearer to the border than this a match is `near_edge`
     DepthTolerance same_surface;
   };
@@ -50,10 +51,13 @@ class CornerTracker {
       const int u = rounded(at.x()), v = rounded(at.y());
       const double measured_m = current.depth.image.contains(u, v) ? double{current.depth.metres(u, v)} : 0.0;
       const double depth_m = measured_m > 0 && std::isfinite(measured_m) ? measured_m : coarse_.typical_depth_m();
-      const Vector3d there =
-          guess * camera.back_project(camera.undistort(corners_[c].template cast<double>()), depth_m);
-      if (there.z() > 0)
-        start_[c] = camera.distort(camera.project(there)).template cast<float>() - corners_[c];
+      const Vector3d point = camera.back_project(camera.undistort(corners_[c].template cast<double>()), depth_m);
+      const auto displacement = [&](const Pose& reference_from_current) {
+        const Vector3d there = reference_from_current * point;
+        if (!(there.z() > 0)) return Vector2f(Vector2f::Zero());
+        return Vector2f(camera.distort(camera.project(there)).template cast<float>() - corners_[c]);
+      };
+      start_[c] = {displacement(guess), displacement(reference_from_expected)};
     }
     return guess;
   }
@@ -66,7 +70,9 @@ class CornerTracker {
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
-      follow(first + c, start_[c], current.depth, matches);
+      follow(first + c, start_[c].aligned, current.depth, matches);
+      const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > options.other_start_px;
+      if (elsewhere && !matches.matched(first + c)) follow(first + c, start_[c].expected, current.depth, matches);
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
@@ -83,6 +89,11 @@ class CornerTracker {
   }
 
  private:
+  /// Displacements from which the search of a corner begins, pixels: the second where the first finds nothing.
+  struct Start {
+    Vector2f aligned = Vector2f::Zero(), expected = Vector2f::Zero();
+  };
+
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
     return image.border_distance_px(pixel.x(), pixel.y());
   }
@@ -110,7 +121,7 @@ class CornerTracker {
       grid_corners(current_[kLevel], cell_px, options.weakest_corner, corners_, workspace_);
       for (Vector2f& corner : corners_) corner = rounded(Pyramid::from_level(corner, kLevel));
     }
-    start_.assign(corners_.size(), Vector2f::Zero());
+    start_.assign(corners_.size(), Start{});
   }
 
   /// @param start  displacement from which the search begins, pixels
@@ -141,7 +152,7 @@ class CornerTracker {
   double current_time_s_ = std::numeric_limits<double>::quiet_NaN();
   CoarseAlignment coarse_;
   std::vector<Vector2f> corners_;
-  std::vector<Vector2f> start_;  // of each corner's search, pixels
+  std::vector<Start> start_;  // of each corner's search
   Workspace workspace_;
 };
 

@@ -32,7 +32,7 @@ class EvidenceMemory {
     float most_log_odds = 3.0f;   ///< log-odds are held within ± this
     float drop_above = 0.0f;      ///< a feature is dynamic above this …
     float keep_below = 0.0f;     ///< … and stands still again below this, if it was dynamic before
-    float suspect_above = 1.0f;   ///< log-odds that make a feature suspect
+    float suspect_above = 2.0f;   ///< log-odds that make a feature suspect
     double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
     double suspicion_decay_s = 6.65;
     float restlessness = 0.6f;   ///< share of the lower bound that full suspicion takes away: it will move again
