@@ -75,6 +75,8 @@ struct Matches {
   Observations current;
   Observations reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;
+  std::vector<Vector2f> predicted;       ///< where it was in the reference image if it stands still, roughly; pixels
+  std::vector<std::uint8_t> was_there;   ///< views of seconds ago that saw a surface in its place
   std::vector<float> trust;              ///< 0 to 1: how much a feature may say of the camera's motion, from memory
   std::vector<float> recalled_log_odds;  ///< that it moves, from earlier frames; 0 where nothing is remembered
   Sightings sightings;                   ///< in older frames, for a matcher that looks back
@@ -93,17 +95,21 @@ struct Matches {
     current.resize(0);
     reference.resize(0);
     state.clear();
+    predicted.clear();
+    was_there.clear();
     trust.clear();
     recalled_log_odds.clear();
     sightings.clear();
     resize(host_count);
-    for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = pixels[i];
+    for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = predicted[i] = pixels[i];
   }
 
   void resize(std::size_t count) {
     current.resize(count);
     reference.resize(count);
     state.resize(count, MatchState::lost);
+    predicted.resize(count, Vector2f::Zero());
+    was_there.resize(count, 0);
     trust.resize(count, 1.0f);
     recalled_log_odds.resize(count, 0.0f);
   }

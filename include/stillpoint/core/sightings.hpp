@@ -38,6 +38,8 @@ struct SurfaceCell {
   Vector3d normal = Vector3d::Zero();  ///< unit length, in the current camera
   double depth_sigma_m = 0;
   float trust = 1.0f;  ///< 0 to 1, as `Matches::trust`
+  std::uint8_t was_there = 0;             ///< as `Matches::was_there`
+  Vector2f predicted = Vector2f::Zero();  ///< where it was in the reference image if it stands still, pixels
 };
 
 /// The surface that an older frame shows in the place of a cell.

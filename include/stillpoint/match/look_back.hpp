@@ -42,16 +42,17 @@ class LookBack {
     int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
     int surrounding_px = 24;         ///< how far a feature without a depth looks for the surfaces beside it
     double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
-    float guess_handicap = 0.3f;     ///< dissimilarity, summed over the older frames, by which a guess must be better
+    float guess_handicap = 0.0f;     ///< dissimilarity, summed over the older frames, by which a guess must be better
     float least_contrast = 3.0f;     ///< standard deviation of a patch without depth that can be compared, gray values
     double bridged_spread = 0.03;    ///< the same where all that is beside it is one surface
     double borrowed_sigmas = 2.0;    ///< of a depth that an older frame measured, times the sensor's
     double shortest_through_s = 0.3;  ///< views newer than this do not ask who came
     double through_m = 0.08;          ///< what a view saw must be this much farther …
-    double through_m_s = 0.02;        ///< … and this much more per second of drift …
+    double through_m_s = 0.05;        ///< … and this much more per second of drift …
     double through_sigmas = 4.0;      ///< … and so many standard deviations of both depths
     double most_came = 0.6;           ///< share of the surfaces beyond which a view's own pose is in doubt
     float trust_of_what_came = 0.05f;
+    double settled_s = 2.2;           ///< what views older than this saw in its place is suspected no more
     float clearly_alike = 0.12f;     ///< a feature no more unlike in the last and in the oldest frame …
     float clearly_there_px = 0.7f;   ///< … and no farther from its place is not looked for in those between
     PatchSearch search = {3, 0.2f};  ///< a standing point is not three pixels away: more steps find look-alikes
@@ -76,6 +77,7 @@ class LookBack {
     const span<OlderFrame> frames = matches.sightings.frames();
     look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings.surfaces,
                       frames.first(std::min<std::size_t>(frames.size(), 1)));
+    if (!frames.empty()) predict(frames[0].reference_from_current, camera, matches);
     distrust_what_came(history.space(), current, filter_from_expected, camera, noise, matches);
   }
 
@@ -118,6 +120,21 @@ class LookBack {
     return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
   }
 
+  /// Where the last frame showed the host's features and the surfaces, if they stand still.
+  template <class Camera>
+  static void predict(const Pose& reference_from_current, const Camera& camera, Matches& matches) {
+    const auto project = [&](const Vector3d& point, Vector2f& pixel) {
+      const Vector3d there = reference_from_current * point;
+      if (there.z() > SurfaceSearch::kNearest_m) pixel = camera.distort(camera.project(there)).template cast<float>();
+    };
+    for (std::size_t i = 0; i < matches.host_count; ++i)
+      if (matches.current.has_depth(i)) project(matches.current.point[i], matches.predicted[i]);
+    for (SurfaceCell& cell : matches.sightings.surfaces) {
+      cell.predicted = cell.pixel;
+      project(cell.point, cell.predicted);
+    }
+  }
+
   /// Counts the views of the past seconds that saw something farther where each feature is now.
   template <class Camera, class Noise>
   void look_through(const SpaceHistory& space, const FrameView& current, const Pose& filter_from_current,
@@ -155,11 +172,15 @@ class LookBack {
         there += space_there == Space::occupied;
       }
       if (static_cast<double>(through) > options.most_came * static_cast<double>(through + there)) continue;
-      for (SurfaceCell& cell : cells)
-        if (look(cell.point) == Space::free) cell.trust = std::min(cell.trust, options.trust_of_what_came);
+      const bool is_old = elapsed_s > options.settled_s;
+      const auto judge = [&](const Vector3d& point, float& trust, std::uint8_t& was_there) {
+        const Space space_there = look(point);
+        if (space_there == Space::free) trust = std::min(trust, options.trust_of_what_came);
+        if (space_there == Space::occupied && is_old) ++was_there;
+      };
+      for (SurfaceCell& cell : cells) judge(cell.point, cell.trust, cell.was_there);
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-        if (matches.current.has_depth(i) && look(matches.current.point[i]) == Space::free)
-          matches.trust[i] = std::min(matches.trust[i], options.trust_of_what_came);
+        if (matches.current.has_depth(i)) judge(matches.current.point[i], matches.trust[i], matches.was_there[i]);
     }
   }
 

@@ -34,7 +34,7 @@ class EvidenceMemory {
     float keep_below = 0.0f;     ///< … and stands still again below this, if it was dynamic before
     float suspect_above = 2.0f;   ///< log-odds that make a feature suspect
     double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
-    double suspicion_decay_s = 6.65;
+    double suspicion_decay_s = 4.0;
     float restlessness = 0.6f;   ///< share of the lower bound that full suspicion takes away: it will move again
     float least_trust = 0.01f;   ///< say of a feature of full suspicion
     float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
@@ -59,15 +59,18 @@ class EvidenceMemory {
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
       const double depth_m = matches.current.depth_m[i];
-      const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i] : here + steps.around(here, depth_m);
+      const Vector2f pixel =
+          matches.matched(i) ? matches.reference.pixel[i] : steps.before(here, depth_m, matches.predicted[i]);
       recalled_[i] = look_up(points, pixel, depth_m);
+      if (settled(matches.was_there[i], matches.trust[i])) recalled_[i].suspicion = 0;
       matches.trust[i] = std::min(matches.trust[i], trust(recalled_[i].suspicion));
       matches.recalled_log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       SurfaceCell& cell = matches.sightings.surfaces[s];
       const double depth_m = cell.point.z();
-      recalled_of_cell_[s] = look_up(points, cell.pixel + steps.around(cell.pixel, depth_m), depth_m);
+      recalled_of_cell_[s] = look_up(points, steps.before(cell.pixel, depth_m, cell.predicted), depth_m);
+      if (settled(cell.was_there, cell.trust)) recalled_of_cell_[s].suspicion = 0;
       cell.trust = std::min(cell.trust, trust(recalled_of_cell_[s].suspicion));
     }
   }
@@ -113,6 +116,9 @@ class EvidenceMemory {
     pixel_.push_back(pixel);
     remembered_.push_back({pixel, static_cast<float>(depth_m), memory.log_odds, memory.suspicion, is_feature});
   }
+
+  /// What two views of seconds ago saw in its place, and none saw through, has stood.
+  static bool settled(std::uint8_t was_there, float trust) noexcept { return was_there >= 2 && trust >= 1.0f; }
 
   float trust(float suspicion) const noexcept { return 1.0f - (1.0f - options.least_trust) * suspicion; }
 

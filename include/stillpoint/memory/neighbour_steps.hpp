@@ -27,23 +27,20 @@ class NeighbourSteps {
         same_surface_(same_surface),
         grid_(matches.current.pixel, reach_px, workspace, [&](std::size_t i) { return matches.matched(i); }) {}
 
-  /// The step of the nearest neighbour on the same surface, else of the nearest; zero where there is none.
-  /// @param depth_m  0 none
-  Vector2f around(const Vector2f& pixel, double depth_m) const {
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    float nearest = kFar;
-    Vector2f step = Vector2f::Zero();
-    // A neighbour on another surface counts as if it were a reach farther away.
+  /// The pixel in the reference frame, by the step of the nearest neighbour on the same surface.
+  /// @param depth_m     0 none
+  /// @param if_static   where it was if it stands still: the answer where there is no such neighbour
+  Vector2f before(const Vector2f& pixel, double depth_m, const Vector2f& if_static) const {
+    if (!(depth_m > 0)) return if_static;
+    float nearest = std::numeric_limits<float>::infinity();
+    Vector2f found = if_static;
     const double tolerance_m = same_surface_.at(depth_m);
     grid_.within(pixel, reach_px_, [&](std::size_t j, float squared) {
-      const double there_m = matches_.current.depth_m[j];
-      const bool one_surface = depth_m > 0 && there_m > 0 && std::abs(there_m - depth_m) <= tolerance_m;
-      const float distance = std::sqrt(squared) + (one_surface ? 0.0f : reach_px_);
-      if (!(distance < nearest)) return;
-      nearest = distance;
-      step = matches_.reference.pixel[j] - matches_.current.pixel[j];
+      if (!(squared < nearest) || !(std::abs(matches_.current.depth_m[j] - depth_m) <= tolerance_m)) return;
+      nearest = squared;
+      found = pixel + matches_.reference.pixel[j] - matches_.current.pixel[j];
     });
-    return step;
+    return found;
   }
 
  private:
