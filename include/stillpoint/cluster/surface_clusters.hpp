@@ -35,7 +35,6 @@ class SurfaceClusters {
     double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond `nearest_m`: three Kinect sigmas
     double nearest_m = 0.4;
     float lowest = -2.0f, highest = 10.0f;  ///< a single score is held between these, nats
-    float most_shared = 4.0f;             ///< of a cluster's mean
     float own_share = 0.5f;         ///< of a feature's own score in its log-odds; the rest is its cluster's mean
     float split_variance = 9.0f;    ///< a cluster whose scores vary less is one population, squared nats
     float split_explained = 0.8f;   ///< share of the variance that two populations must explain
@@ -67,7 +66,7 @@ class SurfaceClusters {
       Label& label = labels[i];
       if (!std::isnan(common[i])) {
         const float own = scores[i].scored() ? held(scores[i]) : common[i];
-        label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common[i], options.most_shared) - level;
+        label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common[i], kMostShared) - level;
         label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
         if (!matches.current.has_depth(i) && i < matches.sightings.point.size() && matches.sightings.is_guess(i))
           label.log_odds += options.depthless_shift;
@@ -82,6 +81,7 @@ class SurfaceClusters {
   }
 
  private:
+  static constexpr float kMostShared = 4.0f;  // nats of a cluster's mean: who clearly stands is not outvoted
   static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
   /// What the prior adds. In a box, what has no depth may lie before or behind the thing.
@@ -99,7 +99,8 @@ class SurfaceClusters {
     return std::clamp(score.value, options.lowest, options.highest);
   }
 
-  /// Of the surface that a feature lies on: measured, borrowed from an older frame, or that of what is beside it; 0 none.
+  /// Of the surface that a feature lies on: measured, borrowed from an older frame, or that of what is beside it; 0
+  /// none.
   static double surface_depth_m(const Matches& matches, std::size_t i) noexcept {
     if (matches.current.has_depth(i)) return matches.current.depth_m[i];
     if (i >= matches.sightings.point.size()) return 0.0;
@@ -123,7 +124,8 @@ class SurfaceClusters {
     for (std::size_t j = 0; j < count; ++j) {
       const std::size_t i = member[j];
       constexpr double kApart = 1000.0;  // regions share no cluster
-      const Vector2d lateral = matches.current.pixel[i].cast<double>() / (options.extent_px * static_cast<double>(matches.pixel_scale));
+      const Vector2d lateral =
+          matches.current.pixel[i].cast<double>() / (options.extent_px * static_cast<double>(matches.pixel_scale));
       points.set(j, {lateral.x(), lateral.y(),
                      whitened(surface_depth_m(matches, i)) + kApart * (regions.of_feature[i].dynamic_region + 1)});
     }

@@ -20,6 +20,13 @@ enum class SightingState : std::uint8_t {
   seen,      ///< its place could be compared
 };
 
+/// What a view of the past shows in the place of a point.
+enum class Space {
+  unknown,   ///< out of view, without depth, or hidden
+  occupied,  ///< a surface was there
+  free,      ///< the view saw through to something farther
+};
+
 /// One feature in one older frame, looked for where a standing point would have been.
 struct Sighting {
   SightingState state = SightingState::none;
@@ -37,7 +44,8 @@ struct SurfaceCell {
   Vector3d point = Vector3d::Zero();   ///< in the current camera, metres
   Vector3d normal = Vector3d::Zero();  ///< unit length, in the current camera
   double depth_sigma_m = 0;
-  float trust = 1.0f;  ///< 0 to 1, as `Matches::trust`
+  float trust = 1.0f;                     ///< 0 to 1, as `Matches::trust`
+  Space seen = Space::unknown;            ///< what the view that was asked last saw in its place
   std::uint8_t was_there = 0;             ///< as `Matches::was_there`
   Vector2f predicted = Vector2f::Zero();  ///< where it was in the reference image if it stands still, pixels
 };

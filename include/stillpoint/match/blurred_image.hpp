@@ -40,8 +40,8 @@ class BlurredImage {
     value_.resize(size());
     for (int v = 0; v < height_; ++v)
       for (int u = 0; u < width_; ++u)
-        value_[index(u, v)] = 0.25f * (image.at(2 * u, 2 * v) + image.at(2 * u + 1, 2 * v) + image.at(2 * u, 2 * v + 1) +
-                                       image.at(2 * u + 1, 2 * v + 1));
+        value_[index(u, v)] = 0.25f * (image.at(2 * u, 2 * v) + image.at(2 * u + 1, 2 * v) +
+                                       image.at(2 * u, 2 * v + 1) + image.at(2 * u + 1, 2 * v + 1));
     blur(blur_px);
   }
 

@@ -22,10 +22,10 @@
 
 namespace stillpoint {
 
-/// Direct alignment of gray values by robust Gauss-Newton steps, coarse to fine, over pixels whose depth is known; those
-/// without one are taken at the median depth. Gain and offset of the exposure cancel.
-/// Source: Klein and Murray, "Improving the Agility of Keyframe-Based SLAM", ECCV 2008 (small blurry images); Kerl,
-/// Sturm and Cremers, "Robust Odometry Estimation for RGB-D Cameras", ICRA 2013 (weights).
+/// Direct alignment of gray values by robust Gauss-Newton steps, coarse to fine, over pixels whose depth is known;
+/// those without one are taken at the median depth. Gain and offset of the exposure cancel. Source: Klein and Murray,
+/// "Improving the Agility of Keyframe-Based SLAM", ECCV 2008 (small blurry images); Kerl, Sturm and Cremers, "Robust
+/// Odometry Estimation for RGB-D Cameras", ICRA 2013 (weights).
 class CoarseAlignment {
  public:
   /// Builds the small images of the current frame. Call once for each frame, before `align`.
@@ -72,12 +72,12 @@ class CoarseAlignment {
   }
 
  private:
-  static constexpr int kWidest_px = 96;        // of the finer image: 80 x 60 of 640 x 480
-  static constexpr float kBlur_px = 2.5f;      // standard deviation in the coarser one, as Klein and Murray's
+  static constexpr int kWidest_px = 96;    // of the finer image: 80 x 60 of 640 x 480
+  static constexpr float kBlur_px = 2.5f;  // standard deviation in the coarser one, as Klein and Murray's
   static constexpr float kGuessWeight = 0.25f;
   static constexpr std::size_t kFewestPoints = 60;
   static constexpr int kMostSteps = 12;
-  static constexpr float kCutoff = 0.6f;       // of a gray-value difference, in standard deviations of the image
+  static constexpr float kCutoff = 0.6f;  // of a gray-value difference, in standard deviations of the image
 
   struct Point {
     Vector3d point;  ///< in the current camera, metres
@@ -103,9 +103,9 @@ class CoarseAlignment {
         double depth_m = depth.image.contains(du, dv) ? static_cast<double>(depth.metres(du, dv)) : 0.0;
         if (!(depth_m > 0.0) || !std::isfinite(depth_m)) depth_m = 0.0;
         if (depth_m > 0) depths_m_.push_back(depth_m);
-        points_.push_back({camera.back_project(camera.undistort(pixel.template cast<double>()), 1.0) *
-                               (depth_m > 0 ? depth_m : -1.0),
-                           image.at(u, v), depth_m > 0 ? 1.0f : kGuessWeight});
+        points_.push_back(
+            {camera.back_project(camera.undistort(pixel.template cast<double>()), 1.0) * (depth_m > 0 ? depth_m : -1.0),
+             image.at(u, v), depth_m > 0 ? 1.0f : kGuessWeight});
       }
     if (depths_m_.empty()) return points_.clear();
     typical_depth_m_ = median_in_place(span<double>(depths_m_));

@@ -31,7 +31,6 @@ class CornerTracker {
     float most_dissimilar = 0.3f;    ///< 1 − correlation above which a corner is lost
     float too_vague = 0.5f;          ///< on a coarse level a fit this bad does not move the start of the next
     int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the corner's surface
-    float other_start_px = 8.0f;     ///< a lost corner is looked for where it was expected, if that is so far away
     float border_px = 8.0f;          ///< nearer to the border than this a match is `near_edge`
     DepthTolerance same_surface;
   };
@@ -71,7 +70,7 @@ class CornerTracker {
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
       follow(first + c, start_[c].aligned, current.depth, matches);
-      const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > options.other_start_px;
+      const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > kOtherStart_px;
       if (elsewhere && !matches.matched(first + c)) follow(first + c, start_[c].expected, current.depth, matches);
     }
     std::swap(reference_, current_);
@@ -94,6 +93,8 @@ class CornerTracker {
     Vector2f aligned = Vector2f::Zero(), expected = Vector2f::Zero();
   };
 
+  static constexpr float kOtherStart_px = 8.0f;  // a nearer second start finds what the first one finds
+
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
     return image.border_distance_px(pixel.x(), pixel.y());
   }
@@ -113,7 +114,7 @@ class CornerTracker {
 
   void find_corners(float scale) {
     constexpr int kSmallestCell_px = 4;  // of that level
-    constexpr std::size_t kLevel = 1;  // sharp enough, and a quarter of the pixels
+    constexpr std::size_t kLevel = 1;    // sharp enough, and a quarter of the pixels
     corners_.clear();
     if (current_.size() > kLevel) {
       workspace_.rewind();

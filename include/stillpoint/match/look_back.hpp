@@ -19,7 +19,9 @@
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/match/borrowed_depth.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/surface_search.hpp"
 #include "stillpoint/match/surrounding_depth.hpp"
 
@@ -34,7 +36,6 @@ class LookBack {
     double detectable_sigmas = 3.0;  ///< … by a step of this many standard deviations
     double pixel_sigma = 0.7;        ///< of a found patch, pixels
     double longest_s = 0.5;          ///< but no frame is older than this, unless frames are few
-    double longest_at_low_rate_s = 1.0;
     int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the feature's surface
     DepthTolerance same_surface;
     double occlusion_m = 0.15;       ///< a surface this much nearer hides the point …
@@ -42,17 +43,6 @@ class LookBack {
     int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
     int surrounding_px = 24;         ///< how far a feature without a depth looks for the surfaces beside it
     double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
-    float guess_handicap = 0.0f;     ///< dissimilarity, summed over the older frames, by which a guess must be better
-    float least_contrast = 3.0f;     ///< standard deviation of a patch without depth that can be compared, gray values
-    double bridged_spread = 0.03;    ///< the same where all that is beside it is one surface
-    double borrowed_sigmas = 2.0;    ///< of a depth that an older frame measured, times the sensor's
-    double shortest_through_s = 0.3;  ///< views newer than this do not ask who came
-    double through_m = 0.08;          ///< what a view saw must be this much farther …
-    double through_m_s = 0.05;        ///< … and this much more per second of drift …
-    double through_sigmas = 4.0;      ///< … and so many standard deviations of both depths
-    double most_came = 0.6;           ///< share of the surfaces beyond which a view's own pose is in doubt
-    float trust_of_what_came = 0.05f;
-    double settled_s = 2.2;           ///< what views older than this saw in its place is suspected no more
     float clearly_alike = 0.12f;     ///< a feature no more unlike in the last and in the oldest frame …
     float clearly_there_px = 0.7f;   ///< … and no farther from its place is not looked for in those between
     PatchSearch search = {3, 0.2f};  ///< a standing point is not three pixels away: more steps find look-alikes
@@ -60,6 +50,7 @@ class LookBack {
   Options options;
   GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
   SurfaceSearch surfaces;  ///< cells of smooth surface
+  SpaceSearch space;       ///< who came where space was free?
 
   /// Chooses the older frames, and finds the surfaces in the last one.
   /// @param filter_from_expected  where the camera is expected now
@@ -78,7 +69,7 @@ class LookBack {
     look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings.surfaces,
                       frames.first(std::min<std::size_t>(frames.size(), 1)));
     if (!frames.empty()) predict(frames[0].reference_from_current, camera, matches);
-    distrust_what_came(history.space(), current, filter_from_expected, camera, noise, matches);
+    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise, matches);
   }
 
   /// Looks for the surfaces once more, and for the features.
@@ -96,11 +87,15 @@ class LookBack {
         look_beside(i, history, current, camera, noise, matches);
       }
     }
-    look_through(history.space(), current, filter_from_current, camera, noise, matches);
+    space.count_views_through(history.space(), current.timestamp_s, filter_from_current, camera, noise, matches);
   }
 
  private:
-  static constexpr std::size_t kLooks = 3;  // older frames
+  static constexpr std::size_t kLooks = 3;            // older frames
+  static constexpr double kLongestAtLowRate_s = 1.0;  // of the oldest, where three are not to be had within `longest_s`
+  static constexpr double kBridgedSpread = 0.03;  // as `supposed_spread`, where all that is beside it is one surface
+  static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
+  static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
 
   /// The last frame, the oldest that is needed, and one between them (their geometric mean in time); 0 is none. The
   /// oldest is the first against which the slowest mover of interest makes a detectable step at the scene's median
@@ -114,7 +109,7 @@ class LookBack {
     const auto elapsed_s = [&](std::size_t age) { return current.timestamp_s - history.back(age).timestamp_s; };
     std::size_t oldest = 1;
     while (oldest < history.size() &&
-           (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < options.longest_at_low_rate_s)))
+           (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < kLongestAtLowRate_s)))
       ++oldest;
     const std::size_t between = std::max<std::size_t>(2, std::lround(std::sqrt(static_cast<double>(oldest))));
     return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
@@ -135,72 +130,6 @@ class LookBack {
     }
   }
 
-  /// Counts the views of the past seconds that saw something farther where each feature is now.
-  template <class Camera, class Noise>
-  void look_through(const SpaceHistory& space, const FrameView& current, const Pose& filter_from_current,
-                    const Camera& camera, const Noise& noise, Matches& matches) const {
-    for (std::size_t age = 1; age <= space.size(); ++age) {
-      const PooledDepth& view = space.back(age);
-      const double elapsed_s = current.timestamp_s - view.timestamp_s;
-      if (elapsed_s < options.shortest_through_s) continue;
-      const Pose view_from_current = orthonormalized(view.filter_from_camera.inverse() * filter_from_current);
-      for (std::size_t i = 0; i < matches.size(); ++i)
-        if (!matches.sightings.is_guess(i) &&
-            seen_through(view, view_from_current, matches.sightings.point[i], elapsed_s, camera, noise) == Space::free)
-          ++matches.sightings.seen_through[i];
-    }
-  }
-
-  /// Before the motion is known well: what came within the past seconds has little say in it. A view that sees through
-  /// most of the surfaces is one whose pose is wrong: it says nothing.
-  template <class Camera, class Noise>
-  void distrust_what_came(const SpaceHistory& space, const FrameView& current, const Pose& filter_from_expected,
-                          const Camera& camera, const Noise& noise, Matches& matches) const {
-    span<SurfaceCell> cells = matches.sightings.surfaces;
-    for (std::size_t age = 1; age <= space.size(); ++age) {
-      const PooledDepth& view = space.back(age);
-      const double elapsed_s = current.timestamp_s - view.timestamp_s;
-      if (elapsed_s < options.shortest_through_s) continue;
-      const Pose view_from_current = orthonormalized(view.filter_from_camera.inverse() * filter_from_expected);
-      const auto look = [&](const Vector3d& point) {
-        return seen_through(view, view_from_current, point, elapsed_s, camera, noise);
-      };
-      std::size_t through = 0, there = 0;
-      for (const SurfaceCell& cell : cells) {
-        const Space space_there = look(cell.point);
-        through += space_there == Space::free;
-        there += space_there == Space::occupied;
-      }
-      if (static_cast<double>(through) > options.most_came * static_cast<double>(through + there)) continue;
-      const bool is_old = elapsed_s > options.settled_s;
-      const auto judge = [&](const Vector3d& point, float& trust, std::uint8_t& was_there) {
-        const Space space_there = look(point);
-        if (space_there == Space::free) trust = std::min(trust, options.trust_of_what_came);
-        if (space_there == Space::occupied && is_old) ++was_there;
-      };
-      for (SurfaceCell& cell : cells) judge(cell.point, cell.trust, cell.was_there);
-      for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-        if (matches.current.has_depth(i)) judge(matches.current.point[i], matches.trust[i], matches.was_there[i]);
-    }
-  }
-
-  enum class Space { unknown, occupied, free };
-
-  template <class Camera, class Noise>
-  Space seen_through(const PooledDepth& view, const Pose& view_from_current, const Vector3d& point, double elapsed_s,
-                     const Camera& camera, const Noise& noise) const {
-    const Vector3d there = view_from_current * point;
-    if (!(there.z() > SurfaceSearch::kNearest_m)) return Space::unknown;
-    const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
-    const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
-    if (!(nearest_m > 0)) return Space::unknown;
-    const double margin_m = options.through_m + options.through_m_s * elapsed_s +
-                            options.through_sigmas * (noise.sigma(there.z()) + noise.sigma(nearest_m));
-    return nearest_m > there.z() + margin_m   ? Space::free
-           : nearest_m > there.z() - margin_m ? Space::occupied
-                                              : Space::unknown;
-  }
-
   template <class Camera, class Noise>
   void look_for_surfaces(const FrameHistory& history, const Pose& filter_from_current, const Camera& camera,
                          const Noise& noise, span<const SurfaceCell> cells, span<OlderFrame> frames) const {
@@ -219,55 +148,35 @@ class LookBack {
   template <class Camera, class Noise>
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Matches& matches) const {
-    const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i], scaled_px(options.surrounding_px, camera), guard);
+    const SurroundingDepth beside =
+        surrounding_depth(current, matches.current.pixel[i], scaled_px(options.surrounding_px, camera), guard);
     if (!(beside.farthest_m > 0)) return;
     std::array<double, 2 + kLooks> candidates{beside.farthest_m, beside.nearest_m};
-    std::size_t count =
-        beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m) ? 1 : 2;
+    std::size_t count = beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m) ? 1 : 2;
     const std::size_t supposed = count;
     for (const OlderFrame& older : std::as_const(matches.sightings).frames()) {
-      const double borrowed_m = borrowed_depth_m(i, beside.farthest_m, history.back(older.age).view(), older, camera, matches);
+      const double borrowed_m =
+          borrowed_depth_m(matches.current.undistorted[i], beside.farthest_m, history.back(older.age).view(),
+                           older.reference_from_current, camera, guard, options.same_surface);
       if (borrowed_m > 0 && count < candidates.size()) candidates[count++] = borrowed_m;
     }
     float least = std::numeric_limits<float>::infinity();
     std::size_t best = 0, last = count;  // candidates
     const auto look_at = [&](std::size_t c) {
       const double depth_m = candidates[c];
-      const double supposed_spread = supposed > 1 ? options.supposed_spread : options.bridged_spread;
-      const double spread = c < supposed ? supposed_spread / depth_m
-                                         : options.borrowed_sigmas * noise.sigma(depth_m) / (depth_m * depth_m);
+      const double supposed_spread = supposed > 1 ? options.supposed_spread : kBridgedSpread;
+      const double spread =
+          c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
       last = c;
       return look(i, depth_m, spread, history, current, camera, noise, matches);
     };
     for (std::size_t c = count; c-- > 0;) {
-      const float dissimilarity = look_at(c) + (c < supposed ? options.guess_handicap : 0.0f);
+      const float dissimilarity = look_at(c);
       if (!(dissimilarity < least)) continue;
       least = dissimilarity;
       best = c;
     }
     if (best != last) look_at(best);
-  }
-
-  /// The depth that an older frame measured where the feature would be if it stood: found by going to and fro, from the
-  /// farthest surface beside it. 0 where there is none.
-  template <class Camera>
-  double borrowed_depth_m(std::size_t i, double start_m, const FrameView& view, const OlderFrame& older,
-                          const Camera& camera, const Matches& matches) const {
-    constexpr int kRounds = 3;
-    double depth_m = start_m;
-    const Pose current_from_older = older.reference_from_current.inverse();
-    for (int round = 0; round < kRounds; ++round) {
-      const Vector3d there =
-          older.reference_from_current * camera.back_project(matches.current.undistorted[i], depth_m);
-      if (!(there.z() > SurfaceSearch::kNearest_m)) return 0.0;
-      const Vector2d pixel = camera.project(there);
-      const double measured_m = guard.at(view, camera.distort(pixel).template cast<float>());
-      if (!(measured_m > 0)) return 0.0;
-      const double now_m = (current_from_older * camera.back_project(pixel, measured_m)).z();
-      if (std::abs(now_m - depth_m) < 0.1 * options.same_surface.at(depth_m)) return now_m;
-      depth_m = now_m;
-    }
-    return 0.0;
   }
 
   /// Looks for a feature in every older frame.
@@ -332,13 +241,14 @@ class LookBack {
       sighting.state = measured_m < there.z() - margin_m ? SightingState::occluded : SightingState::seen;
     }
     if (patch == nullptr || sighting.state == SightingState::occluded) return sighting;
-    if (beside_occluder(older, pixel, there.z() - margin_m, scaled_px(options.occluder_reach_px, camera))) return sighting;
+    if (beside_occluder(older, pixel, there.z() - margin_m, scaled_px(options.occluder_reach_px, camera)))
+      return sighting;
     PatchSearch search = options.search;
     search.warp = view_warp(camera, point, there, reference_from_current);
     const PatchFit fit = find_patch(*patch, older.gray, pixel, search);
     if (!fit.inside) return sighting;
     // Without depth and without texture there is nothing to compare with: a hand before the lens, a blown-out lamp.
-    if (!(measured_m > 0) && !(fit.contrast > options.least_contrast)) return sighting;
+    if (!(measured_m > 0) && !(fit.contrast > kLeastContrast)) return sighting;
     sighting.state = SightingState::seen;
     sighting.dissimilarity = fit.dissimilarity;
     sighting.offset_px = fit.offset.norm();

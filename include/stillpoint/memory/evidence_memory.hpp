@@ -29,10 +29,10 @@ class EvidenceMemory {
  public:
   struct Options {
     double log_odds_decay_s = 0.0935;  ///< time in which log-odds fall by e
-    float most_log_odds = 3.0f;   ///< log-odds are held within ± this
-    float drop_above = 0.0f;      ///< a feature is dynamic above this …
-    float keep_below = 0.0f;     ///< … and stands still again below this, if it was dynamic before
-    float suspect_above = 2.0f;   ///< log-odds that make a feature suspect
+    float most_log_odds = 3.0f;        ///< log-odds are held within ± this
+    float drop_above = 0.0f;           ///< a feature is dynamic above this …
+    float keep_below = 0.0f;           ///< … and stands still again below this, if it was dynamic before
+    float suspect_above = 2.0f;        ///< log-odds that make a feature suspect
     double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
     double suspicion_decay_s = 4.0;
     float restlessness = 0.6f;   ///< share of the lower bound that full suspicion takes away: it will move again
@@ -54,8 +54,7 @@ class EvidenceMemory {
     const float feature_px = matches.pixel_scale * options.feature_px;
     const NeighbourSteps steps(matches, neighbour_px, options.same_surface, workspace);
     suspicion_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.suspicion_decay_s));
-    const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px, options.same_surface},
-                                  workspace);
+    const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px, options.same_surface}, workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
       const double depth_m = matches.current.depth_m[i];

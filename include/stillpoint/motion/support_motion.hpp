@@ -82,11 +82,10 @@ class SupportMotion {
     const bool knows_past =
         prior.current_from_reference.has_value();  // else it began with no motion, for want of better
     // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
-    const bool inverted =
-        differ && knows_past &&
-        problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
-            options.past_preference *
-                problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
+    const bool inverted = differ && knows_past &&
+                          problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
+                              options.past_preference * problem.exclusive_support(sampled.reference_from_current,
+                                                                                  past.reference_from_current);
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
     motion.standing = standing.since_last_frame(matches, prior.standing) &&
                       nothing_creeps(points, features, matches, camera, workspace);

@@ -172,7 +172,6 @@ void each_option(SightingScore& stage, Visit& visit) {
   visit("most_from_depth", stage.options.most_from_depth);
   visit("expected_patch", stage.options.expected_patch);
   visit("expected_depth", stage.options.expected_depth);
-  visit("single_share", stage.options.single_share);
 }
 
 template <class Visit>

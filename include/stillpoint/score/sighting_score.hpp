@@ -38,9 +38,6 @@ class SightingScore {
     double most_from_depth = 8.0;       ///< of the depth
     double expected_patch = 2.5;        ///< what a standing point scores by place and look on average
     double expected_depth = 1.0;        ///< and by depth
-    double per_view_through = 4.0;      ///< of each view of the past seconds that saw through to something farther
-    double most_from_through = 8.0;
-    double single_share = 0.7;          ///< of its evidence in the score where one frame alone saw the place
   };
   Options options;
 
@@ -57,15 +54,19 @@ class SightingScore {
         second = std::max(second, std::min(most, evidence));
         most = std::max(most, evidence);
       }
-      const double through = std::min(options.per_view_through * matches.sightings.seen_through[i], options.most_from_through);
+      const double through = std::min(kPerViewThrough * matches.sightings.seen_through[i], kMostFromThrough);
       const bool is_seen = most > kNever;
-      const double recent = second > kNever ? 0.5 * (most + second) : is_seen ? options.single_share * most : 0.0;
+      const double recent = second > kNever ? 0.5 * (most + second) : is_seen ? kSingleShare * most : 0.0;
       if (!is_seen && !(through > 0)) continue;
       scores[i].value = static_cast<float>(recent + through);
     }
   }
 
  private:
+  static constexpr double kPerViewThrough = 4.0;   // nats of each view of the past seconds that saw through its place
+  static constexpr double kMostFromThrough = 8.0;  // two such views
+  static constexpr double kSingleShare = 0.7;      // of its evidence, where one frame alone saw the place
+
   /// What the pose's own uncertainty moves a pixel, the same in all directions: f² (σ_ω² + σ_v² / z²).
   static double pose_variance_sq_px(const Motion& motion, double depth_m, double focal_px) noexcept {
     const double rotation = motion.covariance.topLeftCorner<3, 3>().trace() / 3.0;

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Which depth has a feature that the sensor gave none now?   If it stands still, the one that an older frame measured.
+
+#include <cmath>
+
+#include "stillpoint/core/depth_tolerance.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/guarded_depth.hpp"
+
+namespace stillpoint {
+
+/// The depth that an older frame measured where a standing feature would be: from a supposed depth to the pixel there,
+/// from the depth measured there back, until both agree.
+/// @param pixel      in the current image, undistorted
+/// @param start_m    supposed depth
+/// @return           depth in the current camera, metres; 0 where nothing was measured or nothing agrees
+template <class Camera>
+double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& older,
+                        const Pose& reference_from_current, const Camera& camera, const GuardedDepth& guard,
+                        const DepthTolerance& same_surface) {
+  constexpr int kRounds = 3;
+  constexpr double kNearest_m = 0.1;
+  constexpr double kAgreed = 0.1;  // of what depths differ by on one surface
+  const Pose current_from_reference = reference_from_current.inverse();
+  double depth_m = start_m;
+  for (int round = 0; round < kRounds; ++round) {
+    const Vector3d there = reference_from_current * camera.back_project(pixel, depth_m);
+    if (!(there.z() > kNearest_m)) return 0.0;
+    const Vector2d seen_at = camera.project(there);
+    const double measured_m = guard.at(older, camera.distort(seen_at).template cast<float>());
+    if (!(measured_m > 0)) return 0.0;
+    const double now_m = (current_from_reference * camera.back_project(seen_at, measured_m)).z();
+    if (std::abs(now_m - depth_m) < kAgreed * same_surface.at(depth_m)) return now_m;
+    depth_m = now_m;
+  }
+  return 0.0;
+}
+
+}  // namespace stillpoint
