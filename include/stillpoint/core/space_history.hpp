@@ -87,6 +87,8 @@ class SpaceHistory {
       if (since_s < kSpacing_s - 1e-3) return;
     }
     ring_[head_].assign(frame, filter_from_camera);
+    for (PooledDepth& view : ring_)
+      view.nearest_m.reserve(ring_[head_].nearest_m.size());  // nothing is allocated later
     head_ = (head_ + 1) % ring_.size();
     size_ = std::min(size_ + 1, ring_.size());
   }

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"

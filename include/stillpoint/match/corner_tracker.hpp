@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/workspace.hpp"

@@ -205,7 +205,8 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
   Vector2f offset = Vector2f::Zero();
   PatchPixels sample;
   constexpr int kOne = BilinearWeights::kOne;
-  constexpr float kLeastGain = 0.5f;  // what looks unlike has no gain: its steps stay bounded
+  // Elsewhere another content has another contrast, and between pixels there is less: neither is the exposure's.
+  constexpr float kAlike = 0.1f, kLeastChange = 0.15f, kLeastGain = 0.2f;
   for (int iteration = 0; iteration < search.iterations; ++iteration) {
     if (!detail::sample_patch(gray, start + offset, search.warp, shifted_only, sample)) break;
     best.inside = true;
@@ -221,13 +222,17 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
     }
     if (!(determinant > 0)) break;
     // Σ gradient · (sample / gain − value), all without their means: neither gain nor offset of the exposure counts.
-    const float gain = std::clamp(likeness / patch.energy, kLeastGain, 1.0f / kLeastGain);
-    const auto slope_times = [&](const PatchPixels& slope, int sum_slope, int along) {
-      const float there = patch.without_means(product(slope, sample), sum_slope, total) / (kOne * gain);
-      return 0.5f * (there - patch.without_means(along, sum_slope, patch.sum));
-    };
-    const float bx = slope_times(patch.slope_x, patch.sum_x, patch.along_x);
-    const float by = slope_times(patch.slope_y, patch.sum_y, patch.along_y);
+    const int excess = total - kOne * patch.sum;
+    const int excess_x = product(patch.slope_x, sample) - kOne * patch.along_x;
+    const int excess_y = product(patch.slope_y, sample) - kOne * patch.along_y;
+    float bx = patch.without_means(excess_x, patch.sum_x, excess) / (2 * kOne);
+    float by = patch.without_means(excess_y, patch.sum_y, excess) / (2 * kOne);
+    const float gain = std::sqrt(energy / (patch.energy + 1e-3f));
+    if (dissimilarity < kAlike && std::abs(gain - 1.0f) > kLeastChange && gain > kLeastGain) {
+      const float without_gain = (1.0f / gain - 1.0f) / (2 * kOne);
+      bx += without_gain * patch.without_means(product(patch.slope_x, sample), patch.sum_x, total);
+      by += without_gain * patch.without_means(product(patch.slope_y, sample), patch.sum_y, total);
+    }
     Vector2f step(-(patch.hyy * bx - patch.hxy * by) / determinant, -(patch.hxx * by - patch.hxy * bx) / determinant);
     step = (search.warp * step).cwiseMax(-1.0f).cwiseMin(1.0f);
     const Vector2f before = offset;

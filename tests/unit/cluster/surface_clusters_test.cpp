@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/core/policy_traits.hpp"
@@ -79,19 +80,21 @@ TEST_F(SurfaceClustersTest, NeighboursShareTheirEvidence) {
   }
 }
 
+// A single score is held at 10 nats, a cluster hands on no more than 4.
 TEST_F(SurfaceClustersTest, SingleScoresAreHeld) {
   for (const float score : {1000.0f, 1000.0f, 1000.0f}) add({100, 100}, 2.0, score);
   classify();
-  for (const Label& label : labels_) EXPECT_NEAR(label.log_odds, 10.0f - 1.0f, kRounding);
+  for (const Label& label : labels_) EXPECT_NEAR(label.log_odds, 0.4f * 10.0f + 0.6f * 4.0f - 1.0f, kRounding);
 }
 
 // Six features score 0 and four score 8, mixed in one cluster: variance 0.24 · 64 = 15.4, all of it between the two.
-// Each has the mean of its own population: 0 − 1 and 8 − 1. A feature without a score gets the mean of both, 3.2.
+// Each has the mean of its own population, 0 and 8, of which 4 are handed on: 0 − 1 and 0.4 · 8 + 0.6 · 4 − 1. A
+// feature without a score gets the mean of both, 3.2.
 TEST_F(SurfaceClustersTest, AClusterWithTwoPopulationsIsSplit) {
   for (int i = 0; i < 10; ++i) add({100 + 3.0f * static_cast<float>(i), 100}, 2.0, i % 5 < 3 ? 0.0f : 8.0f);
   add({115, 104}, 2.0, kNaN);
   classify();
-  for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(labels_[i].log_odds, i % 5 < 3 ? -1.0f : 7.0f, kRounding) << i;
+  for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(labels_[i].log_odds, i % 5 < 3 ? -1.0f : 4.6f, kRounding) << i;
   EXPECT_NEAR(labels_[10].log_odds, 3.2f - 1.0f, kRounding);
   EXPECT_EQ(labels_[10].reason, Reason::neighbours);
 }
@@ -109,7 +112,7 @@ TEST_F(SurfaceClustersTest, AnEvenSpreadIsOnePopulation) {
   for (int i = 0; i <= 10; ++i) add({100 + 3.0f * static_cast<float>(i), 100}, 2.0, static_cast<float>(i));
   classify();
   for (std::size_t i = 0; i <= 10; ++i)
-    EXPECT_NEAR(labels_[i].log_odds, 0.4f * static_cast<float>(i) + 0.6f * 5.0f - 1.0f, kRounding);
+    EXPECT_NEAR(labels_[i].log_odds, 0.4f * static_cast<float>(i) + 0.6f * 4.0f - 1.0f, kRounding) << "of 5, 4 at most";
 }
 
 // A person at 1 m before a wall at 4 m: pixels interlock, depths do not.
@@ -177,18 +180,32 @@ TEST_F(SurfaceClustersTest, OutsideOfDynamicRegionsThingsRatherStand) {
   EXPECT_NEAR(labels_[4].log_odds, -1.25f, kRounding) << "outside of every box it is outside, whatever its depth";
 }
 
-// Neighbours say (0 − 1) · 0.5 = −0.5. With a score of 5 of its own: 0.25 · (5 − 1) + 0.75 · (−0.5) = 0.625; and two
-// less.
-TEST_F(SurfaceClustersTest, AFeatureWithASupposedDepthAnswersForItselfToo) {
-  clusters_.options.depthless_shift = -2.0f;
+// Neighbours say (0 − 1) · 0.5 = −0.5. With a score of 5 of its own: 0.25 · (5 − 1) + 0.75 · (−0.5) = 0.625.
+TEST_F(SurfaceClustersTest, AFeatureWithoutAnyDepthAnswersForItselfToo) {
   for (int i = 0; i < 6; ++i) add({100, 100}, 2.0, 0.0f);
   add({100, 100}, 0.0, kNaN);
   add({100, 100}, 0.0, 5.0f);
   classify();
-  EXPECT_NEAR(labels_[6].log_odds, -2.5f, kRounding);
+  EXPECT_NEAR(labels_[6].log_odds, -0.5f, kRounding);
   EXPECT_EQ(labels_[6].reason, Reason::no_depth);
-  EXPECT_NEAR(labels_[7].log_odds, 0.625f - 2.0f, kRounding);
+  EXPECT_NEAR(labels_[7].log_odds, 0.625f, kRounding);
   EXPECT_EQ(labels_[7].reason, Reason::consistent);
+}
+
+// A depth that an older frame measured makes a feature a member of its surface's cluster: scores 0, 0, 3 have the mean
+// 1, 0.4 · 3 + 0.6 · 1 − 1 = 0.8. A guess between two surfaces is two nats less suspect.
+TEST_F(SurfaceClustersTest, AFeatureWithABorrowedDepthIsOneOfItsSurface) {
+  clusters_.options.depthless_shift = -2.0f;
+  for (int i = 0; i < 2; ++i) add({100, 100}, 2.0, 0.0f);
+  add({100, 100}, 0.0, 3.0f);
+  matches_.sightings.add(matches_.size());
+  matches_.sightings.point[2] = {0, 0, 2};
+  for (const auto& [spread, shift] : {std::pair(0.01, 0.0f), std::pair(0.1, -2.0f)}) {
+    matches_.sightings.inverse_depth_sigma[2] = spread / 2.0;
+    classify();
+    EXPECT_NEAR(labels_[2].log_odds, 0.8f + shift, kRounding) << spread;
+    EXPECT_EQ(labels_[2].cluster, labels_[0].cluster);
+  }
 }
 
 TEST_F(SurfaceClustersTest, FeaturesWithoutDepthAskTheirNeighbours) {

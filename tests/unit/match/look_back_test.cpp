@@ -55,10 +55,10 @@ void expect_near(const std::vector<double>& found, const std::vector<double>& ex
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-9) << i;
 }
 
-// At 1.9 m 0.19 s are wanted: one frame of 5 Hz, six of 30 Hz (0.2 s; five are 0.167), twelve of 60 Hz (0.2 s; eleven
-// are 0.183). Between: √6 = 2.4 and √12 = 3.5.
+// At 1.9 m 0.19 s are wanted: one frame of 5 Hz, but three are looked at within a second; six of 30 Hz (0.2 s; five are
+// 0.167), twelve of 60 Hz (0.2 s; eleven are 0.183). Between: √6 = 2.4 and √12 = 3.5.
 TEST(LookBack, AgesFollowTheFrameRate) {
-  expect_near(ages(5, 16, 1.9), {1 / 5.0});
+  expect_near(ages(5, 16, 1.9), {1 / 5.0, 2 / 5.0, 3 / 5.0});
   expect_near(ages(30, 16, 1.9), {1 / 30.0, 2 / 30.0, 6 / 30.0});
   expect_near(ages(60, 16, 1.9), {1 / 60.0, 3 / 60.0, 12 / 60.0});
 }
@@ -73,7 +73,7 @@ TEST(LookBack, AgesEndWithTheHistoryAndTheLongestTime) {
   expect_near(ages(30, 4, 3.8), {1 / 30.0, 2 / 30.0, 4 / 30.0});
   expect_near(ages(30, 1, 3.8), {1 / 30.0});
   expect_near(ages(30, 16, 3.8, 0.15), {1 / 30.0, 2 / 30.0, 5 / 30.0});
-  expect_near(ages(30, 16, 0.0), {1 / 30.0});  // no depth at all: the last frame
+  expect_near(ages(30, 16, 0.0), {1 / 30.0, 2 / 30.0, 3 / 30.0});  // no depth at all: the last three
 }
 
 // ---- What is seen there? ----
@@ -160,7 +160,7 @@ TEST_F(LookBackTest, FreeSpaceIsSeenAndOcclusionSaysNothing) {
 // A person stood at 70 px and less in the older frame: 8 px of reach from 77, not from 79, and the depth in the place
 // of the point itself says as much as ever.
 TEST_F(LookBackTest, APatchThatWasPartlyCoveredIsNotCompared) {
-  look_back_.options.occluder_reach_px = 8;
+  look_back_.options.occluder_reach_px = 21;  // 8 px of this camera
   older_depth_.colRange(0, 70).setTo(1.0);
   const Sighting covered = look({77, 60});
   EXPECT_EQ(covered.state, SightingState::seen);
@@ -177,6 +177,7 @@ TEST_F(LookBackTest, APatchThatWasPartlyCoveredIsNotCompared) {
 // The camera went 0.04 m to the right: a point at 2 m was 4 px, one at 1 m 8 px further right. The feature has no depth
 // and both surfaces beside it; it is found on the one that the older image agrees with.
 TEST_F(LookBackTest, AFeatureWithoutADepthLiesOnASurfaceBesideIt) {
+  look_back_.options.surrounding_px = 60;  // 23 px of this camera
   depth_.colRange(60, 90).setTo(0.0);
   depth_.colRange(90, 160).setTo(1.0);
   filter_from_current_.translation().x() = 0.04;
@@ -216,7 +217,7 @@ TEST_F(LookBackTest, WithoutADepthOrOutOfViewNothingIsLookedFor) {
 }
 
 TEST_F(LookBackTest, SurfaceCellsLieOnSmoothDepthOnly) {
-  look_back_.surfaces.step_px = 16;
+  look_back_.surfaces.step_px = 42;  // 16 px of this camera
   look({80, 60});
   const std::vector<SurfaceCell>& cells = matches_.sightings.surfaces;
   EXPECT_EQ(cells.size(), 10u * 7u) << "the cells' centres are 8, 24, …, 152 and 8, …, 104: seven rows lie inside";

@@ -203,6 +203,8 @@ TEST(FindPatch, BrightnessDoesNotMatter) {
   EXPECT_LT(fit.dissimilarity, 0.01f);
   EXPECT_LT(find_patch(patch, brighter, kCentre + Vector2f(0.8f, -0.5f), PatchSearch()).dissimilarity, 0.02f)
       << "nor does contrast, for how alike they look";
+  const PatchFit of_half_contrast = find_patch(patch, brighter, kCentre, PatchSearch());
+  EXPECT_LT((of_half_contrast.offset - Vector2f(0.8f, -0.5f)).norm(), 2 * kPrecision_px) << "nor for where it is found";
 }
 
 TEST(FindPatch, DissimilarityIsZeroAlikeAndTwoInverted) {

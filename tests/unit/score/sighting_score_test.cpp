@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
@@ -34,7 +36,6 @@ class SightingScoreTest : public testing::Test {
     scorer_.options.most_from_depth = 7.0;
     scorer_.options.expected_patch = 1.5;
     scorer_.options.expected_depth = 1.0;
-    scorer_.options.unseen = -3.0;
     const std::vector<Vector2f> pixel = {{320, 240}};
     matches_.begin(pixel);
     matches_.current.undistorted[0] = {320, 240};
@@ -182,7 +183,7 @@ TEST_F(SightingScoreTest, NoMatchesAreSoExactThatNothingIsLeft) {
 
 TEST_F(SightingScoreTest, OneObjectionAloneIsHalfAnObjection) {
   seen({4, 0}, 0.0f);  // 8 nats less 1.5
-  EXPECT_NEAR(score(), 0.5f * (6.5f - 3.0f), kRounding) << "frames that say nothing speak for standing still";
+  EXPECT_NEAR(score(), 0.7f * 6.5f, kRounding) << "what one frame alone saw counts less";
   seen({0, 0}, 0.0f);
   EXPECT_NEAR(score(), 0.5f * (6.5f - 1.5f), kRounding);
   seen({2, 0}, 0.0f);
@@ -195,7 +196,19 @@ TEST_F(SightingScoreTest, WhatWasNotSeenIsNotScored) {
   seen({50, 0}, 2.0f, 5.0f).state = SightingState::none;
   EXPECT_TRUE(std::isnan(score())) << "hidden or out of view: nothing is known";
   seen({0, 0}, 0.0f);
-  EXPECT_NEAR(score(), 0.5f * (-1.5f - 3.0f), kRounding);
+  EXPECT_NEAR(score(), 0.7f * -1.5f, kRounding);
+}
+
+// Four nats for a view that saw through the feature's place, eight for two and more, on top of what frames say.
+TEST_F(SightingScoreTest, WhatCameWhereSpaceWasFreeMoves) {
+  const float plain = evidence({2, 0}, 0.0f);
+  for (const auto& [views, nats] : {std::pair(1, 4.0f), std::pair(2, 8.0f), std::pair(5, 8.0f)}) {
+    matches_.sightings.seen_through[0] = static_cast<std::uint8_t>(views);
+    EXPECT_NEAR(score(), plain + nats, kRounding) << views;
+    for (OlderFrame& frame : matches_.sightings.frames()) frame.of_feature[0].state = SightingState::none;
+    EXPECT_NEAR(score(), nats, kRounding) << "it needs no match";
+    for (OlderFrame& frame : matches_.sightings.frames()) frame.of_feature[0].state = SightingState::seen;
+  }
 }
 
 // The older camera stood 0.1 m to the left: the point is seen 25 px to the right there.

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/match/space_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/space_history.hpp"
+#include "stillpoint/opencv.hpp"
+
+namespace stillpoint {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+
+// ---- Pooled depth ----
+
+FrameView view_of(const cv::Mat& gray, const cv::Mat& depth, double timestamp_s) {
+  return FrameView(gray, DepthView(depth), timestamp_s);
+}
+
+// Blocks of 320 / 160 = 2 px: the nearest depth of each, where half of its pixels have one.
+TEST(PooledDepth, KeepsTheNearestDepthOfEachBlock) {
+  const cv::Mat gray(kHeight, kWidth, CV_8UC1, cv::Scalar(50));
+  cv::Mat depth(kHeight, kWidth, CV_32FC1, cv::Scalar(3.0));
+  depth.at<float>(101, 201) = 1.0f;
+  depth.at<float>(20, 20) = depth.at<float>(20, 21) = depth.at<float>(21, 20) = 0.0f;
+  PooledDepth pooled;
+  pooled.assign(view_of(gray, depth, 0), Pose::Identity());
+  EXPECT_EQ(pooled.width, 160);
+  EXPECT_EQ(pooled.height, 120);
+  EXPECT_EQ(pooled.nearest_around({201, 101}), 1.0f);
+  EXPECT_EQ(pooled.nearest_around({203, 99}), 1.0f) << "one block beside it";
+  EXPECT_EQ(pooled.nearest_around({205, 101}), 3.0f) << "two blocks beside it";
+  EXPECT_EQ(pooled.nearest_around({22, 22}), 0.0f) << "a block beside it is three quarters empty";
+  for (const Vector2f& outside : {Vector2f(0, 100), Vector2f(-50, 100), Vector2f(319, 100), Vector2f(100, 239)})
+    EXPECT_EQ(pooled.nearest_around(outside), 0.0f);
+  EXPECT_EQ(pooled.nearest_around({std::numeric_limits<float>::quiet_NaN(), 3}), 0.0f);
+}
+
+TEST(SpaceHistory, KeepsAViewEachFourTenthsOfASecond) {
+  const cv::Mat gray(kHeight, kWidth, CV_8UC1, cv::Scalar(50)), depth(kHeight, kWidth, CV_32FC1, cv::Scalar(3.0));
+  SpaceHistory history;
+  for (int f = 0; f <= 30; ++f) history.push(view_of(gray, depth, f / 30.0), Pose::Identity());
+  ASSERT_EQ(history.size(), 3u);  // 0, 0.4, 0.8 s
+  EXPECT_NEAR(history.back(1).timestamp_s, 0.8, 1e-9);
+  EXPECT_NEAR(history.back(3).timestamp_s, 0.0, 1e-9);
+  for (int f = 31; f <= 600; ++f) history.push(view_of(gray, depth, f / 30.0), Pose::Identity());
+  EXPECT_EQ(history.size(), SpaceHistory::kViews);
+  history.clear();
+  EXPECT_EQ(history.size(), 0u);
+}
+
+// ---- Who came? ----
+
+/// A wall at 3 m was seen from the origin each 0.4 s up to 4 s ago; now it is 4.4 s.
+class SpaceSearchTest : public testing::Test {
+ protected:
+  SpaceSearchTest() {
+    for (int k = 0; k < 10; ++k) history_.push(view_of(gray_, depth_, 0.4 * k), Pose::Identity());
+  }
+
+  /// Views that saw through a feature straight ahead at this depth, measured or guessed with this relative spread.
+  int through(double depth_m, double spread = 0.01, const Pose& filter_from_current = Pose::Identity()) {
+    Matches matches;
+    const std::vector<Vector2f> pixels = {{160, 120}};
+    matches.begin(pixels);
+    matches.sightings.add(1);
+    matches.sightings.point[0] = camera_.back_project({160, 120}, depth_m);
+    matches.sightings.inverse_depth_sigma[0] = spread / depth_m;
+    search_.count_views_through(history_, kNow_s, filter_from_current, camera_, KinectNoise(), matches);
+    return matches.sightings.seen_through[0];
+  }
+
+  /// Trust of a surface cell at `depth_m` beside `others` cells on the wall, and how often it was there.
+  SurfaceCell cell(double depth_m, int others) {
+    Matches matches;
+    matches.begin(std::vector<Vector2f>());
+    SurfaceCell asked;
+    asked.point = camera_.back_project({160, 120}, depth_m);
+    matches.sightings.surfaces.push_back(asked);
+    for (int k = 0; k < others; ++k) {
+      SurfaceCell wall;
+      wall.point = camera_.back_project({40.0 + 20 * k, 60}, 3.0);
+      matches.sightings.surfaces.push_back(wall);
+    }
+    search_.distrust_what_came(history_, kNow_s, Pose::Identity(), camera_, KinectNoise(), matches);
+    return matches.sightings.surfaces[0];
+  }
+
+  static constexpr double kNow_s = 4.4;
+  const cv::Mat gray_{kHeight, kWidth, CV_8UC1, cv::Scalar(50)};
+  cv::Mat depth_{kHeight, kWidth, CV_32FC1, cv::Scalar(3.0)};
+  Camera camera_{300, 300, 160, 120, kWidth, kHeight};
+  SpaceHistory history_;
+  SpaceSearch search_;
+};
+
+TEST_F(SpaceSearchTest, WhatStandsWhereViewsSawThroughIsCounted) {
+  EXPECT_EQ(through(2.0), 10) << "all ten saw the wall behind it";
+  EXPECT_EQ(through(3.0), 0) << "it is the wall";
+  EXPECT_EQ(through(4.0), 0) << "the wall hid it";
+  EXPECT_EQ(through(2.0, 0.1), 0) << "nobody measured where it is";
+}
+
+// The margin at 2.6 m: 0.08 + 0.05 t + 4 (σ(2.6) + σ(3)) with σ(z) = 0.0012 + 0.0019 (z − 0.4)²: 0.0104 + 0.0140, so
+// 0.177 + 0.05 t: 0.4 m of distance is more for t ≤ 4.4 s, 0.25 m only for t < 1.45 s, the views of 0.8 and 1.2 s ago.
+TEST_F(SpaceSearchTest, TheMarginGrowsWithTheTimeThatPosesAreChained) {
+  EXPECT_EQ(through(2.6), 10);
+  EXPECT_EQ(through(2.75), 2);
+}
+
+// A step of 0.5 m toward the wall: a feature 2.5 m ahead is on it.
+TEST_F(SpaceSearchTest, TheMotionSinceIsTakenOut) {
+  Pose filter_from_current = Pose::Identity();
+  filter_from_current.translation().z() = 0.5;
+  EXPECT_EQ(through(2.5, 0.01, filter_from_current), 0);
+  EXPECT_EQ(through(1.5, 0.01, filter_from_current), 10);
+}
+
+TEST_F(SpaceSearchTest, ASurfaceThatCameHasLittleSay) {
+  EXPECT_LT(cell(2.0, 9).trust, 0.1f);
+  EXPECT_EQ(cell(2.0, 9).was_there, 0);
+  EXPECT_EQ(cell(3.0, 9).trust, 1.0f);
+  EXPECT_EQ(cell(3.0, 9).was_there, 6) << "views of 2.4 to 4.4 s ago";
+}
+
+// One of one saw through: more than what people hide of a room. The view's pose is in doubt, not the surface.
+TEST_F(SpaceSearchTest, AViewThatSeesThroughEverythingSaysNothing) { EXPECT_EQ(cell(2.0, 0).trust, 1.0f); }
+
+TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {
+  history_.clear();
+  EXPECT_EQ(through(2.0), 0);
+  depth_.setTo(0.0);
+  history_.push(view_of(gray_, depth_, 0), Pose::Identity());
+  EXPECT_EQ(through(2.0), 0);
+  EXPECT_EQ(cell(2.0, 3).trust, 1.0f);
+}
+
+}  // namespace
+}  // namespace stillpoint
