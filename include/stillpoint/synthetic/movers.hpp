@@ -48,6 +48,13 @@ inline Wardrobe wardrobe(std::uint64_t seed) {
 
 namespace detail {
 
+constexpr double kBlackAlbedo = 0.05;  // of hair and black shoes in infrared light: a Kinect has no depth there
+
+inline Part black(Part part) {
+  part.solid.infrared_albedo = kBlackAlbedo;
+  return part;
+}
+
 inline Part ellipsoid(const Vector3d& half, const Vector3d& centre, const TexturePtr& texture,
                       const Joint& joint = {}) {
   return {Solid(Shape::ellipsoid, half, centre, texture), joint};
@@ -59,7 +66,7 @@ inline void add_trunk(double lift, const Wardrobe& clothes, std::vector<Part>& p
   parts.push_back(ellipsoid({0.185, 0.17, 0.135}, {0, -0.92 + lift, 0}, clothes.trousers));
   parts.push_back(ellipsoid({0.060, 0.10, 0.060}, {0, -1.50 + lift, 0}, clothes.skin));
   parts.push_back(ellipsoid({0.085, 0.120, 0.100}, {0, -1.63 + lift, 0.01}, clothes.skin));
-  parts.push_back(ellipsoid({0.092, 0.095, 0.100}, {0, -1.68 + lift, -0.015}, clothes.hair));
+  parts.push_back(black(ellipsoid({0.092, 0.095, 0.100}, {0, -1.68 + lift, -0.015}, clothes.hair)));
 }
 
 /// An arm that hangs from the shoulder. @param side -1 left, 1 right
@@ -86,7 +93,7 @@ inline Mover walking_person(Path path, std::uint64_t seed) {
     person.parts.push_back(detail::ellipsoid({0.085, 0.26, 0.095}, {side * 0.095, -0.68, 0}, clothes.trousers, hip));
     person.parts.push_back(detail::ellipsoid({0.065, 0.25, 0.070}, {side * 0.095, -0.29, 0}, clothes.trousers, hip));
     person.parts.push_back(
-        {Solid(Shape::cuboid, {0.045, 0.035, 0.12}, {side * 0.095, -0.035, 0.05}, clothes.shoes), hip});
+        detail::black({Solid(Shape::cuboid, {0.045, 0.035, 0.12}, {side * 0.095, -0.035, 0.05}, clothes.shoes), hip}));
     Joint shoulder;
     shoulder.pivot = {side * 0.24, -1.42, 0};
     shoulder.stride_rad = -side * 0.35;
@@ -108,7 +115,7 @@ inline Mover waving_person(Path path, double start_s, double end_s, std::uint64_
     person.parts.push_back(detail::ellipsoid({0.085, 0.085, 0.25}, {side * 0.10, -0.50, 0.20}, clothes.trousers));
     person.parts.push_back(detail::ellipsoid({0.065, 0.25, 0.070}, {side * 0.10, -0.27, 0.40}, clothes.trousers));
     person.parts.push_back(
-        {Solid(Shape::cuboid, {0.045, 0.035, 0.12}, {side * 0.10, -0.035, 0.45}, clothes.shoes), {}});
+        detail::black({Solid(Shape::cuboid, {0.045, 0.035, 0.12}, {side * 0.10, -0.035, 0.45}, clothes.shoes), {}}));
   }
   detail::add_arm(-1.0, kLift, clothes, {}, person.parts);
   Joint elbow;

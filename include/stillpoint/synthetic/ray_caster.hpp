@@ -52,6 +52,7 @@ class PlacedSolid {
   }
 
   const Solid& solid() const noexcept { return *solid_; }
+  const Pose& camera_from_solid() const noexcept { return camera_from_solid_; }
 
   /// Corners of the cuboid around it, in the camera's frame.
   std::array<Vector3d, 8> corners() const {

@@ -21,6 +21,7 @@
 #include "stillpoint/synthetic/scene.hpp"
 #include "stillpoint/synthetic/synthetic_frame.hpp"
 #include "stillpoint/synthetic/truth.hpp"
+#include "stillpoint/synthetic/visible_surfaces.hpp"
 
 namespace stillpoint::synthetic {
 
@@ -30,7 +31,9 @@ class SyntheticSequence {
  public:
   /// @throws Error if the scene's numbers make no sequence or a solid lacks a texture.
   explicit SyntheticSequence(Scene scene)
-      : scene_(std::move(scene)), grid_(scene_.camera), pixel_width_(static_cast<float>(1.0 / scene_.camera.fx())) {
+      : scene_(std::move(scene)),
+        grid_(scene_.camera),
+        sample_width_(0.5f * kLensBlur * static_cast<float>(1.0 / scene_.camera.fx())) {
     if (scene_.frame_count < 1)
       throw Error("scene: frame_count is " + std::to_string(scene_.frame_count) + ", expected at least 1");
     if (!(scene_.frame_rate_hz > 0))
@@ -58,28 +61,22 @@ class SyntheticSequence {
     frame.timestamp_s = scene_.start_s + time_of(index);
     frame.depth_factor = scene_.sensor.depth_factor;
     frame.world_from_camera = scene_.camera_path.world_from_camera(time_of(index));
-    place(index, frame);
-    cast(frame.exact_depth);
+    frame.world_from_mover.clear();
+    for (const Mover& mover : scene_.movers) frame.world_from_mover.push_back(mover.world_from_object(time_of(index)));
+    surfaces_.look(scene_, grid_, moment(index), sample_width_, frame.exact_depth);
     shade(frame);
     gray_from_bgr(frame.colour.view(), frame.gray);
-    DepthSensor(scene_.sensor)
-        .measure(frame.exact_depth.view(), cosine_.data(), table_, frame_seed(index, 1), frame.depth);
+    measure_depth(frame);
     ignore_silhouettes(frame.mover_ids.view(), columns_, frame.labels);
     find_boxes(frame.mover_ids.view(), scene_.movers, frame.boxes);
   }
 
  private:
-  /// A solid on stage: 0 static, k + 1 mover k.
-  struct Actor {
-    PlacedSolid placed;
-    RayGrid::Window window;
-    PartMotion motion;
-    std::uint8_t mover_id;
-  };
+  using Actor = VisibleSurfaces::Actor;
+  static constexpr std::uint16_t kNothing = VisibleSurfaces::kNothing;
   /// A pixel gathers light from so many pixels' width: a lens is a little softer than its sensor, so that corners can
   /// be located to a small part of a pixel.
   static constexpr float kLensBlur = 1.4f;
-  static constexpr std::uint16_t kNothing = 0xffff;  ///< a key is 8 · actor + face
 
   static void check(const Solid& solid) {
     if (!(solid.half_extents.minCoeff() > 0)) throw Error("scene: a solid has half_extents not above 0 m");
@@ -91,48 +88,22 @@ class SyntheticSequence {
     return Random(scene_.seed + 4 * static_cast<std::uint64_t>(index) + purpose).bits();
   }
 
-  void place(int index, SyntheticFrame& frame) {
-    const Pose camera_from_world = frame.world_from_camera.inverse();
-    actors_.clear();
-    frame.world_from_mover.clear();
-    const auto add = [&](const Solid& solid, const Pose& world_from_solid, const PartMotion& motion, std::size_t id) {
-      const PlacedSolid placed(solid, camera_from_world * world_from_solid, frame.world_from_camera);
-      actors_.push_back(
-          {placed, grid_.window(placed), motion, static_cast<std::uint8_t>(std::min<std::size_t>(id, 255))});
-    };
-    for (const Solid& solid : scene_.furniture) add(solid, solid.object_from_solid, {}, 0);
-    const double now_s = time_of(index), last_s = time_of(std::max(0, index - 1));
-    const double window_start_s = time_of(std::max(0, index - scene_.motion_rule.window_frames));
-    for (std::size_t k = 0; k < scene_.movers.size(); ++k) {
-      const Mover& mover = scene_.movers[k];
-      frame.world_from_mover.push_back(mover.world_from_object(now_s));
-      for (const Part& part : mover.parts)
-        add(part.solid, mover.world_from_part(part, now_s),
-            PartMotion(mover, part, now_s, last_s, window_start_s, scene_.motion_rule), k + 1);
-    }
-    if (actors_.size() >= kNothing / 8) throw Error("scene: more than 8190 solids");
+  VisibleSurfaces::Moment moment(int index) const noexcept {
+    return {time_of(index), time_of(std::max(0, index - 1)),
+            time_of(std::max(0, index - scene_.motion_rule.window_frames))};
   }
 
-  /// What the ray through each pixel's centre meets first.
-  void cast(ImageBuffer& exact_depth) {
-    const int width = scene_.camera.width(), height = scene_.camera.height();
-    exact_depth.resize(width, height, PixelFormat::depth32f);
-    keys_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kNothing);
-    for (int v = 0; v < height; ++v) std::fill_n(exact_depth.row<float>(v), width, 1e9f);
-    for (std::size_t i = 0; i < actors_.size(); ++i) {
-      const Actor& actor = actors_[i];
-      for (int v = actor.window.v_begin; v < actor.window.v_end; ++v) {
-        float* const depth = exact_depth.row<float>(v);
-        std::uint16_t* const keys = keys_.data() + static_cast<std::ptrdiff_t>(v) * width;
-        const Ray* const rays = &grid_.at(0, v);
-        for (int u = actor.window.u_begin; u < actor.window.u_end; ++u) {
-          Hit hit;
-          if (!actor.placed.meets(rays[u], depth[u], hit)) continue;
-          depth[u] = hit.depth_m;
-          keys[u] = static_cast<std::uint16_t>(8 * i + static_cast<std::size_t>(hit.face));
-        }
-      }
+  void measure_depth(SyntheticFrame& frame) {
+    const Sensor& sensor = scene_.sensor;
+    const bool is_delayed = sensor.depth_delay_s != 0.0;
+    VisibleSurfaces& surfaces = is_delayed ? delayed_surfaces_ : surfaces_;
+    ImageBuffer& exact_depth = is_delayed ? delayed_depth_ : frame.exact_depth;
+    if (is_delayed) {
+      const double now_s = time_of(frame.index) + sensor.depth_delay_s;
+      surfaces.look(scene_, grid_, {now_s, now_s, now_s}, sample_width_, exact_depth);
     }
+    DepthSensor(sensor).measure(exact_depth.view(), surfaces.light(sensor, grid_, exact_depth.view()), table_,
+                                frame_seed(frame.index, 1), frame.depth);
   }
 
   void shade(SyntheticFrame& frame) {
@@ -140,34 +111,31 @@ class SyntheticSequence {
     frame.colour.resize(width, height, PixelFormat::bgr8);
     frame.labels.resize(width, height, PixelFormat::gray8);
     frame.mover_ids.resize(width, height, PixelFormat::gray8);
-    cosine_.assign(keys_.size(), 0.0f);
+    frame.furniture_ids.resize(width, height, PixelFormat::gray8);
     NormalStream normal(table_, frame_seed(frame.index, 2));
     const double flicker = Random(frame_seed(frame.index, 3)).uniform(-1.0, 1.0) * scene_.sensor.exposure_flicker;
     const auto exposure = static_cast<float>(1.0 + flicker), sigma = static_cast<float>(scene_.sensor.image_sigma);
     for (int v = 0; v < height; ++v) {
-      float* const depth = frame.exact_depth.row<float>(v);
+      const float* const depth = frame.exact_depth.row<float>(v);
+      const std::uint16_t* const keys = surfaces_.keys(v);
       std::uint8_t* const colour = frame.colour.row<std::uint8_t>(v);
       std::uint8_t* const labels = frame.labels.row<std::uint8_t>(v);
-      std::uint8_t* const ids = frame.mover_ids.row<std::uint8_t>(v);
+      std::uint8_t* const mover_ids = frame.mover_ids.row<std::uint8_t>(v);
+      std::uint8_t* const furniture_ids = frame.furniture_ids.row<std::uint8_t>(v);
       for (int u = 0; u < width; ++u) {
-        const std::size_t at =
-            static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
-        const std::uint16_t key = keys_[at];
+        const std::uint16_t key = keys[u];
         labels[u] = kStatic;
-        ids[u] = 0;
-        Shading shading{};
-        if (key == kNothing) {
-          depth[u] = 0.0f;
-        } else {
-          const Actor& actor = actors_[key / 8];
-          shading = actor.placed.shading(grid_.at(u, v), {depth[u], key % 8}, 0.5f * kLensBlur * pixel_width_);
-          cosine_[at] = shading.cosine;
+        mover_ids[u] = furniture_ids[u] = 0;
+        if (key != kNothing) {
+          const Actor& actor = surfaces_.actors()[key / 8];
+          mover_ids[u] = actor.mover_id;
+          furniture_ids[u] = actor.furniture_id;
           if (actor.mover_id != 0) {
             const auto p = actor.placed.point(grid_.at(u, v), depth[u]);
             labels[u] = actor.motion.moves(Vector3d(p[0], p[1], p[2])) ? kMoving : kAtRest;
-            ids[u] = actor.mover_id;
           }
         }
+        const Shading& shading = surfaces_.shadings(v)[u];
         const Bgr mean = within_face(u, v, key) ? face_colour(u, v, key, shading, depth[u]) : edge_colour(u, v);
         const float noise = sigma > 0.0f ? sigma * normal.next() : 0.0f;
         colour[3 * u] = rounded(exposure * mean.blue + noise);
@@ -184,14 +152,14 @@ class SyntheticSequence {
   /// Whether the four neighbours show the same face: then so does all of the pixel.
   bool within_face(int u, int v, std::uint16_t key) const noexcept {
     const int width = scene_.camera.width();
-    const std::uint16_t* const here = keys_.data() + static_cast<std::ptrdiff_t>(v) * width + u;
-    return key != kNothing && u > 0 && v > 0 && u + 1 < width && v + 1 < scene_.camera.height() && here[-1] == key &&
-           here[1] == key && here[-width] == key && here[width] == key;
+    if (key == kNothing || u < 1 || v < 1 || u + 1 >= width || v + 1 >= scene_.camera.height()) return false;
+    const std::uint16_t* const here = surfaces_.keys(v) + u;
+    return here[-1] == key && here[1] == key && here[-width] == key && here[width] == key;
   }
 
   /// Mean of 2 × 2 samples of the face.
   Bgr face_colour(int u, int v, std::uint16_t key, const Shading& shading, float depth_m) const noexcept {
-    const PlacedSolid& placed = actors_[key / 8].placed;
+    const PlacedSolid& placed = surfaces_.actors()[key / 8].placed;
     Bgr sum;
     for (int i = 0; i < 4; ++i) {
       const Ray ray = grid_.beside(u, v, offset(i & 1, 2), offset(i >> 1, 2));
@@ -205,20 +173,20 @@ class SyntheticSequence {
   Bgr edge_colour(int u, int v) {
     constexpr int kSide = 4;
     near_.clear();
-    for (std::size_t i = 0; i < actors_.size(); ++i)
-      if (actors_[i].window.contains(u, v)) near_.push_back(i);
+    for (const Actor& actor : surfaces_.actors())
+      if (actor.window.contains(u, v)) near_.push_back(&actor.placed);
     Bgr sum;
     for (int i = 0; i < kSide * kSide; ++i) {
       const Ray ray = grid_.beside(u, v, offset(i % kSide, kSide), offset(i / kSide, kSide));
       Hit first{1e9f, 0}, hit;
       const PlacedSolid* seen = nullptr;
-      for (const std::size_t k : near_)
-        if (actors_[k].placed.meets(ray, first.depth_m, hit)) {
+      for (const PlacedSolid* const placed : near_)
+        if (placed->meets(ray, first.depth_m, hit)) {
           first = hit;
-          seen = &actors_[k].placed;
+          seen = placed;
         }
       if (seen == nullptr) continue;
-      const Shading shading = seen->shading(ray, first, 0.5f * kLensBlur * pixel_width_);
+      const Shading shading = seen->shading(ray, first, sample_width_);
       add(seen->colour(ray, first, shading.level), shading.lit / (kSide * kSide), sum);
     }
     return sum;
@@ -237,12 +205,11 @@ class SyntheticSequence {
 
   Scene scene_;
   RayGrid grid_;
-  float pixel_width_;  ///< at a depth of 1 m, metres
+  float sample_width_;  ///< of 2 x 2 samples in a pixel, at a depth of 1 m, metres
   NormalTable table_;
-  std::vector<Actor> actors_;
-  std::vector<std::uint16_t> keys_;
-  std::vector<float> cosine_;
-  std::vector<std::size_t> near_;
+  VisibleSurfaces surfaces_, delayed_surfaces_;  ///< of the picture, and of the depth where it comes at another time
+  ImageBuffer delayed_depth_;
+  std::vector<const PlacedSolid*> near_;
   std::vector<std::uint8_t> columns_;
 };
 

@@ -9,11 +9,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/synthetic/path.hpp"
@@ -33,6 +35,9 @@ struct Solid {
   Vector3d half_extents = Vector3d::Constant(0.5);  ///< metres, half of the edges or the semi-axes
   Pose object_from_solid = Pose::Identity();        ///< centre and axes, in the mover's frame or (furniture) the world
   std::array<TexturePtr, 6> textures;               ///< of the faces, none of them null
+  std::string name;                                 ///< of furniture that a test asks for (`labels_of`), else empty
+  double infrared_albedo = 0.5;  ///< share of the infrared light that a face returns, in [0, 1]; not what colour it has
+  bool specular = false;         ///< a mirror: no infrared light comes back to where it came from
 
   Solid() = default;
   Solid(Shape form, const Vector3d& half, const Vector3d& centre, const TexturePtr& texture, double yaw = 0.0)
@@ -91,6 +96,7 @@ struct Mover {
 };
 
 /// How good the camera is. Everything off: exact depth (rounded to the factor's steps) and a clean picture.
+/// `realistic_kinect()` has everything on.
 struct Sensor {
   double image_sigma = 2.0;       ///< gaussian noise, grey levels, the same on all three channels of a pixel
   double exposure_flicker = 0.0;  ///< largest change of brightness of a frame, as a share of 1
@@ -99,7 +105,37 @@ struct Sensor {
   double depth_factor = 5000.0;   ///< units of the 16-bit depth per metre
   double nearest_m = 0.4;         ///< no depth below, unless `depth_holes` is off
   double farthest_m = 8.0;        ///< none beyond
+
+  /// Step of the disparity for the Kinect's own focal length and base, px. Part of `depth_noise`, 0: no steps.
+  double disparity_step_px = 0.125;
+  /// Depth of a stereo pair: gaussian noise of the disparity in place of `KinectNoise` and steps, with `depth_noise`.
+  std::optional<StereoNoise> stereo_noise;
+
+  // Part of `depth_holes`, each in place of a simpler rule. Off by default.
+
+  /// Distance of the projector (or a second camera) to the right of the camera, metres: there is no depth where it does
+  /// not see the surface. The shadow of an edge at depth z1 before z2 is f b (1/z1 - 1/z2) px wide. 0: 2 to 4 px.
+  double projector_baseline_m = 0.0;
+  /// No depth where infrared albedo times cosine of the angle of incidence is not above this, in [0, 1], nor on
+  /// specular surfaces. 0: none beyond 78 to 84 degrees, of any surface.
+  double least_return = 0.0;
+  /// Share of the depths within 2 px of an edge of more than 10 sigma that are a mix of both sides by a random weight,
+  /// in [0, 1]. 0: depths at an edge are swapped with a neighbour's.
+  double flying_pixel_share = 0.0;
+
+  /// The depth is taken so many seconds after the picture (negative: before it).
+  double depth_delay_s = 0.0;
 };
+
+/// A Kinect v1 as it is, with colour and depth that are not taken at the same instant.
+inline Sensor realistic_kinect() {
+  Sensor sensor;
+  sensor.projector_baseline_m = 0.075;  // Khoshelham and Elberink, Sensors 2012
+  sensor.least_return = 0.08;           // of a surface of albedo 0.5 up to 81 degrees
+  sensor.flying_pixel_share = 0.5;
+  sensor.depth_delay_s = 0.010;  // its two cameras run freely at 30 Hz: at most 0.017
+  return sensor;
+}
 
 /// When a mover's pixel counts as moving (label 255). The defaults are those of the recorded test sequences; speeds
 /// below 6 cm/s (at 30 Hz) count as rest with them.

@@ -35,12 +35,14 @@ struct TruthBox {
 struct SyntheticFrame {
   int index = 0;
   double timestamp_s = 0.0;
-  ImageBuffer gray;         ///< gray8: luma of `colour`
-  ImageBuffer colour;       ///< bgr8
-  ImageBuffer depth;        ///< depth16, as the sensor measures it, 0 = none
-  ImageBuffer exact_depth;  ///< depth32f, metres, of the ray through the pixel's centre, 0 = nothing there
-  ImageBuffer labels;       ///< gray8, values of `Label`
-  ImageBuffer mover_ids;    ///< gray8: 0 static, k + 1 for mover k; movers beyond 254 share 255
+  ImageBuffer gray;    ///< gray8: luma of `colour`
+  ImageBuffer colour;  ///< bgr8
+  ImageBuffer depth;   ///< depth16, as the sensor measures it, 0 = none
+  ImageBuffer
+      exact_depth;        ///< depth32f, metres, of the ray through the pixel's centre when `colour` is taken, 0 = none
+  ImageBuffer labels;     ///< gray8, values of `Label`
+  ImageBuffer mover_ids;  ///< gray8: 0 static, k + 1 for mover k; movers beyond 254 share 255
+  ImageBuffer furniture_ids;  ///< gray8: 0 no furniture, k + 1 for `Scene::furniture[k]`; those beyond 254 share 255
   Pose world_from_camera = Pose::Identity();
   std::vector<Pose> world_from_mover;  ///< one per mover
   std::vector<TruthBox> boxes;         ///< movers of at least 400 visible pixels that have a class name

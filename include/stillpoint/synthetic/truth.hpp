@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Truth about motion: which pixels of a mover move now, where silhouettes are, and the movers' boxes.
+// Truth about motion: which pixels of a mover move now, since when, where silhouettes are, and the movers' boxes.
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
@@ -47,6 +49,33 @@ class PartMotion {
   bool origin_moved_ = false;
   MotionRule rule_;
 };
+
+/// The first frame in which a mover, or a part of it, moves by the scene's rule; none where it never does.
+/// @param mover  index into `Scene::movers`
+inline std::optional<int> first_moving_frame(const Scene& scene, std::size_t mover) {
+  const auto time_of = [&scene](int index) { return std::max(0, index) / scene.frame_rate_hz; };
+  for (int i = 1; i < scene.frame_count; ++i)
+    for (const Part& part : scene.movers.at(mover).parts) {
+      const PartMotion motion(scene.movers[mover], part, time_of(i), time_of(i - 1),
+                              time_of(i - scene.motion_rule.window_frames), scene.motion_rule);
+      if (motion.moves(Vector3d::Zero())) return i;
+    }
+  return std::nullopt;
+}
+
+/// The labels of a frame where furniture of that name is seen, `kIgnored` everywhere else: to count features on static
+/// objects apart from the rest of the background.
+inline void labels_of(const Scene& scene, const std::string& name, const SyntheticFrame& frame, ImageBuffer& labels) {
+  constexpr std::size_t kShared = 254;  // furniture from here on shares an identifier
+  labels.assign(frame.labels.view());
+  const ImageView ids = frame.furniture_ids.view();
+  for (int v = 0; v < ids.height; ++v)
+    for (int u = 0; u < ids.width; ++u) {
+      const std::size_t id = ids.row<std::uint8_t>(v)[u];
+      const bool is_named = id > 0 && id <= kShared && scene.furniture[id - 1].name == name;
+      if (!is_named) labels.row<std::uint8_t>(v)[u] = kIgnored;
+    }
+}
 
 /// Sets `kIgnored` where two different movers, or a mover and the static scene, are seen within 2 px of each other
 /// (a square of 5 × 5): two pixels on both sides of every silhouette.

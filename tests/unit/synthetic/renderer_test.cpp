@@ -377,6 +377,28 @@ TEST(SyntheticSequence, RenderingAgainAllocatesNothing) {
   EXPECT_EQ(frame.gray.view().data, pixels);
 }
 
+TEST(SyntheticSequence, RenderingAgainWithARealisticSensorAllocatesNothing) {
+  Scene scene = walking_people(small());
+  scene.sensor = realistic_kinect();
+  SyntheticSequence sequence(scene);
+  SyntheticFrame frame;
+  sequence.render(40, frame);
+  const long before = allocations;
+  sequence.render(41, frame);
+  EXPECT_EQ(allocations, before);
+}
+
+TEST(SyntheticSequence, FurnitureIdsAreThoseOfWhatIsSeen) {
+  Scene scene = cube_before_wall();
+  scene.furniture.emplace_back(Shape::cuboid, Vector3d(0.1, 0.1, 0.1), Vector3d(-0.9, 0, 2), print(3));
+  SyntheticFrame frame;
+  SyntheticSequence(scene).render(0, frame);
+  const std::uint8_t* const row = frame.furniture_ids.row<std::uint8_t>(240);
+  EXPECT_EQ(row[320], 0);                 // the cube, a mover
+  EXPECT_EQ(row[600], 1);                 // the wall
+  EXPECT_EQ(row[319 - 525 * 9 / 19], 2);  // the small cuboid: its front at z = 1.9 m
+}
+
 TEST(SyntheticSequence, TimestampsCountFromOneSecondAtTheFrameRate) {
   SceneOptions options = small();
   SyntheticFrame frame;
