@@ -111,7 +111,8 @@ class LookBack {
     while (oldest < history.size() &&
            (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < kLongestAtLowRate_s)))
       ++oldest;
-    const std::size_t between = std::max<std::size_t>(2, std::lround(std::sqrt(static_cast<double>(oldest))));
+    const std::size_t between =
+        std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(oldest)))));
     return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
   }
 

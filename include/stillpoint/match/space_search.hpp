@@ -26,6 +26,7 @@ class SpaceSearch {
   template <class Camera, class Noise>
   void count_views_through(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_current,
                            const Camera& camera, const Noise& noise, Matches& matches) const {
+    if (matches.sightings.frames().empty()) return;  // nothing was looked for
     for_each_view(history, timestamp_s, filter_from_current, camera, noise, [&](double, const auto& look) {
       for (std::size_t i = 0; i < matches.size(); ++i)
         if (!matches.sightings.is_guess(i) && look(matches.sightings.point[i]) == Space::free)

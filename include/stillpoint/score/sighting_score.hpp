@@ -44,6 +44,7 @@ class SightingScore {
   /// Features without any sighting keep NaN.
   template <class Camera>
   void score(const Matches& matches, const Motion& motion, const Camera& camera, span<FeatureScore> scores) const {
+    if (matches.sightings.frames().empty()) return;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       constexpr double kNever = -std::numeric_limits<double>::infinity();
       double most = kNever, second = kNever;
