@@ -127,10 +127,9 @@ std::size_t visited(Group&& group) {
 // A field that is added to a stage and forgotten in the file makes this fail.
 TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(FrameCheck()), field_count<FrameCheck::Options>());
-  EXPECT_EQ(visited(GuardedDepth()), field_count<GuardedDepth::Options>());
   EXPECT_EQ(visited(MaskPrediction()), field_count<MaskPrediction::Options>());
   EXPECT_EQ(visited(BoxPrior()), field_count<BoxPrior::Options>());
-  EXPECT_EQ(visited(PropagatedPrior()), visited(ForegroundPrior()) + field_count<PropagatedPrior::Carrying>());
+  EXPECT_EQ(visited(PropagatedPrior()), visited(BoxPrior()) + field_count<PropagatedPrior::Carrying>());
   EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());
   EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>());
   EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
@@ -139,10 +138,9 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>());
   EXPECT_EQ(visited(EpipolarMotion()), field_count<EpipolarMotion::Options>());
   EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
-  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>());
-  EXPECT_EQ(visited(StandingCamera()), field_count<StandingCamera>());
+  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>() - 1) << "the surfaces' weight is none";
   EXPECT_EQ(visited(Inertia()), field_count<Inertia>());
-  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 3) << "constraints, standing, inertia";
+  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints, inertia";
   EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
   EXPECT_EQ(visited(SightingScore()), field_count<SightingScore::Options>());
   EXPECT_EQ(visited(MeanGate()), field_count<MeanGate::Options>());
@@ -172,12 +170,12 @@ TEST_F(OptionsFile, DepthNoiseIsAModelAndItsParameters) {
 }
 
 TEST_F(OptionsFile, SeedsKeepTheirSixtyFourBits) {
-  filter.classifier.options.seed = 0xfedc'ba98'7654'3210u;
+  filter.ego_motion.options.seed = 0xfedc'ba98'7654'3210u;
   const std::filesystem::path path = folder.path() / "seed.yaml";
   write_options(path, filter);
   FrameFilter<> restored(any_camera());
   read_options(path, restored);
-  EXPECT_EQ(restored.classifier.options.seed, 0xfedc'ba98'7654'3210u);
+  EXPECT_EQ(restored.ego_motion.options.seed, 0xfedc'ba98'7654'3210u);
 }
 
 TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
@@ -191,9 +189,10 @@ TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
             name + ": gate.false_positive_rate is not a number, expected a number above 0");
   EXPECT_EQ(error("gate:\n   false_positive_rate: 0.\n"),
             name + ": gate.false_positive_rate is 0.000000, expected a number above 0");
-  EXPECT_EQ(error("gate:\n   trusted: -0.5\n"),
-            name + ": gate.trusted is -0.500000, expected a number that is not negative");
-  EXPECT_EQ(error("gate:\n   decay: .Nan\n"), name + ": gate.decay is not finite, expected a number above 0");
+  EXPECT_EQ(error("scorer:\n   depth_sigmas: -0.5\n"),
+            name + ": scorer.depth_sigmas is -0.500000, expected a number that is not negative");
+  EXPECT_EQ(error("scorer:\n   pixel_sigma: .Nan\n"),
+            name + ": scorer.pixel_sigma is not finite, expected a number above 0");
   EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 0\n"),
             name + ": matcher.corners.cell_px is 0, expected a number above 0");
   EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 24.5\n"),
@@ -208,7 +207,8 @@ TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
 
 TEST_F(OptionsFile, NothingChangesWhereAnythingIsWrong) {
   const std::string before = options_as_yaml(filter);
-  EXPECT_NE(error("gate:\n   decay: 2.\ndepth_noise:\n   model: tof\nmemory:\n   minority: -1.\n"), "");
+  EXPECT_NE(error("scorer:\n   depth_sigmas: 2.\ndepth_noise:\n   model: tof\nmemory:\n   suspicion_rise_s: -1.\n"),
+            "");
   EXPECT_EQ(options_as_yaml(filter), before);
 }
 
