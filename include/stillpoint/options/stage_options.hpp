@@ -44,48 +44,20 @@ void each_option(PropagatedPrior& stage, Visit& visit) {
 template <class Visit>
 void each_option(CornerTracker& stage, Visit& visit) {
   visit.positive("cell_px", stage.options.cell_px);
-  visit("weakest_corner", stage.options.weakest_corner);
-  visit.positive("pyramid_levels", stage.options.pyramid_levels);
   visit("most_dissimilar", stage.options.most_dissimilar);
-  visit("too_vague", stage.options.too_vague);
-  visit("fewest_pixels", stage.options.fewest_pixels);
-  visit("border_px", stage.options.border_px);
-  visit("same_surface", stage.options.same_surface);
-}
-
-template <class Visit>
-void each_option(PatchSearch& search, Visit& visit) {
-  visit.positive("iterations", search.iterations);
-  visit("precision_px", search.precision_px);
-  visit.positive("reach_px", search.reach_px);
 }
 
 template <class Visit>
 void each_option(SurfaceSearch& search, Visit& visit) {
   visit.positive("step_px", search.step_px);
-  visit.positive("reach_px", search.reach_px);
-  visit("steepest_cosine", search.steepest_cosine);
-  visit("guard", search.guard);
-  visit("smooth", search.smooth);
 }
 
 template <class Visit>
 void each_option(LookBack& stage, Visit& visit) {
   visit("slowest_m_s", stage.options.slowest_m_s);
-  visit("detectable_sigmas", stage.options.detectable_sigmas);
   visit.positive("pixel_sigma", stage.options.pixel_sigma);
   visit("longest_s", stage.options.longest_s);
-  visit("fewest_pixels", stage.options.fewest_pixels);
-  visit("same_surface", stage.options.same_surface);
-  visit("occlusion_m", stage.options.occlusion_m);
   visit("occlusion_sigmas", stage.options.occlusion_sigmas);
-  visit("occluder_reach_px", stage.options.occluder_reach_px);
-  visit("surrounding_px", stage.options.surrounding_px);
-  visit("supposed_spread", stage.options.supposed_spread);
-  visit("clearly_alike", stage.options.clearly_alike);
-  visit("clearly_there_px", stage.options.clearly_there_px);
-  visit("search", stage.options.search);
-  visit("guard", stage.guard);
   visit("surfaces", stage.surfaces);
 }
 

@@ -133,9 +133,8 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());
   EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>());
   EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
-  EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 2) << "guard and surfaces";
-  EXPECT_EQ(visited(PatchSearch()), field_count<PatchSearch>() - 1) << "the warp is none";
-  EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>());
+  EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 1) << "surfaces";
+  EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>() - 1) << "the guard is none";
   EXPECT_EQ(visited(EpipolarMotion()), field_count<EpipolarMotion::Options>());
   EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
   EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>() - 1) << "the surfaces' weight is none";
