@@ -5,11 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/policies.hpp"
@@ -202,6 +206,130 @@ TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
             name + ": depth_noise.model is 'sonar', expected kinect or stereo or tof");
   EXPECT_EQ(error("depth_noise:\n   model: tof\n   baseline_m: 0.1\n"),
             name + ": depth_noise.baseline_m is unknown, expected one of model, constant_m, per_metre, scale");
+}
+
+// ---- Options of earlier versions ----
+
+/// YAML with one option, whose value is 1.
+std::string yaml_of(std::string_view name) {
+  std::string text;
+  for (std::string indent;; indent += "   ") {
+    const std::size_t dot = name.find('.');
+    text += indent + std::string(name.substr(0, dot)) + (dot == std::string_view::npos ? ": 1\n" : ":\n");
+    if (dot == std::string_view::npos) return text;
+    name.remove_prefix(dot + 1);
+  }
+}
+
+/// All names of a filter's options, with their stages.
+struct Names {
+  std::vector<std::string> found;
+  std::string path;
+  template <class T>
+  void operator()(const char* name, T& value) {
+    if constexpr (!std::is_arithmetic_v<T>) {
+      if constexpr (has_options<T, Names>::value) {
+        const std::string outer = path;
+        path += std::string(name) + '.';
+        each_option(value, *this);
+        path = outer;
+      }
+    } else {
+      found.push_back(path + name);
+    }
+  }
+  template <class T>
+  void positive(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T>
+  void any(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T, class... Words>
+  void choice(const char* name, T&, Words...) {
+    found.push_back(path + name);
+  }
+};
+template <class Policies>
+std::vector<std::string> names_of(FrameFilter<Policies>& filter) {
+  Names names;
+  each_option(filter, names);
+  return names.found;
+}
+
+TEST_F(OptionsFile, ANameThatIsGoneIsRefusedWithWhatReplacedIt) {
+  const std::vector<std::string> names = names_of(filter);
+  const std::string before = options_as_yaml(filter);
+  for (const ReplacedOption& option : kReplacedOptions) {
+    const std::string name(option.name), replacement(option.replacement);
+    EXPECT_EQ(error(yaml_of(name)), (folder.path() / "options.yaml").string() +
+                                        ": 1 option is gone; delete or rename\n  " + name + ": " + replacement);
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 0) << name << " is not gone";
+    if (replacement.rfind("fixed", 0) != 0) {
+      EXPECT_EQ(std::count(names.begin(), names.end(), replacement), 1) << replacement << " is no option";
+    }
+  }
+  EXPECT_EQ(options_as_yaml(filter), before);
+}
+
+TEST_F(OptionsFile, OfAnOldFileEachNameThatIsGoneIsListed) {
+  const std::string found = error(
+      "gate:\n   false_positive_rate: 0.05\n   decay: 0.8\nmemory:\n   persistence: 0.7\n   same_surface:\n"
+      "      constant_m: 0.06\n      per_square_m: 0.0076\n");
+  EXPECT_EQ(found.substr(found.find(": ")),
+            ": 4 options are gone; delete or rename\n  gate.decay: fixed at 0.8: nats, measured with the whole filter\n"
+            "  memory.persistence: memory.log_odds_decay_s\n"
+            "  memory.same_surface.constant_m: fixed at 0.06: roughness of a surface\n"
+            "  memory.same_surface.per_square_m: fixed at 0.0076: four sigmas of a Kinect's depth");
+  EXPECT_EQ(filter.gate.options.false_positive_rate, TailGate::Options{}.false_positive_rate);
+  EXPECT_NE(error("memory:\n   same_surface:\n      constant_m: 1.\n      slope: 1.\n").find("same_surface is unknown"),
+            std::string::npos)
+      << "one that never was is no old option";
+}
+
+// What `write_options` left behind before options were fixed: every line of it is either read or listed.
+TEST_F(OptionsFile, ACompleteFileOfBeforeIsRefusedLineByLine) {
+  const std::vector<std::string> names = names_of(filter);
+  std::string text;
+  std::vector<std::string> open;  // the groups of the line before
+  std::vector<std::string> all(names);
+  for (const ReplacedOption& option : kReplacedOptions) all.emplace_back(option.name);
+  std::sort(all.begin(), all.end());
+  for (const std::string& name : all) {
+    if (name == "depth_noise.model") continue;  // not a number
+    std::vector<std::string> groups;
+    std::size_t begin = 0;
+    for (std::size_t dot; (dot = name.find('.', begin)) != std::string::npos; begin = dot + 1)
+      groups.push_back(name.substr(begin, dot - begin));
+    std::size_t common = 0;
+    while (common < std::min(groups.size(), open.size()) && groups[common] == open[common]) ++common;
+    for (; common < groups.size(); ++common) text += std::string(3 * common, ' ') + groups[common] + ":\n";
+    text += std::string(3 * groups.size(), ' ') + name.substr(begin) + ": 1\n";
+    open = groups;
+  }
+  const std::string found = error(text);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(found.begin(), found.end(), '\n')), kReplacedOptions.size()) << found;
+  for (const ReplacedOption& option : kReplacedOptions)
+    EXPECT_NE(found.find("\n  " + std::string(option.name) + ": "), std::string::npos) << option.name;
+}
+
+// A set whose stages still have them reads them: the paper's K-means has a seed, its matcher a border.
+TEST_F(OptionsFile, WhatAnotherSetStillHasIsNotGoneThere) {
+  FrameFilter<PaperPolicies> paper(any_camera());
+  read_options(file("classifier:\n   seed: 7\n   max_iterations: 5\n"), paper);
+  EXPECT_EQ(paper.classifier.options.seed, 7u);
+}
+
+// More than anyone can set by hand are none that users need (docs/tuning.md lists them).
+TEST(StageOptions, DefaultPoliciesHaveFortyAtTheMost) {
+  FrameFilter<> filter(any_camera());
+  for (const AnyDepthNoise& noise :
+       {AnyDepthNoise(KinectNoise{}), AnyDepthNoise(StereoNoise{}), AnyDepthNoise(TimeOfFlightNoise{})}) {
+    filter.depth_noise = noise;
+    EXPECT_LE(names_of(filter).size(), 40u) << "with depth noise " << noise.model.index();
+    EXPECT_GE(names_of(filter).size(), 30u) << "the visitor sees groups as well";
+  }
 }
 
 TEST_F(OptionsFile, NothingChangesWhereAnythingIsWrong) {
