@@ -17,13 +17,14 @@ struct ReplacedOption {
 };
 
 // clang-format off
-inline constexpr std::array<ReplacedOption, 114> kReplacedOptions = {{
+inline constexpr std::array<ReplacedOption, 120> kReplacedOptions = {{
     {"depth_lookup.fewest_neighbours", "fixed at 6: pixels of nine with a depth"},
     {"depth_lookup.jump_m", "fixed at 0.03: an edge is as deep for every user"},
     {"depth_lookup.jump_per_square_m", "fixed at 0.011: six sigmas of a Kinect's depth"},
     {"prior.reach_m", "fixed at 0.1: half the depth of a body"},
     {"prior.most_missed", "fixed at 8: prior.longest_s ends what is not seen"},
     {"prior.growth_per_s", "fixed at 0.2: a box grows until prior.longest_s ends it"},
+    {"prior.half_life_s", "fixed at 1: half of prior.longest_s"},
     {"prior.least_overlap", "fixed at 0.2: boxes of neighbours overlap less"},
     {"prior.most_jump_m", "fixed at 0.2: more is something before the object"},
     {"prior.fewest_features", "fixed at 4: for a median"},
@@ -57,6 +58,7 @@ inline constexpr std::array<ReplacedOption, 114> kReplacedOptions = {{
     {"matcher.older.surfaces.steepest_cosine", "fixed at 0.2: 78 degrees"},
     {"matcher.older.surfaces.smooth.constant_m", "fixed at 0.05: roughness of a surface"},
     {"matcher.older.surfaces.smooth.per_square_m", "fixed at 0.0076: four sigmas of a Kinect's depth"},
+    {"ego_motion.trials", "ego_motion.max_trials"},
     {"ego_motion.confidence", "fixed at 0.9996: ego_motion.max_trials bounds the time"},
     {"ego_motion.past_preference", "fixed at 0.35: chosen on recordings of walking people"},
     {"ego_motion.same_motion_px", "fixed at 1: less is noise"},
@@ -113,6 +115,8 @@ inline constexpr std::array<ReplacedOption, 114> kReplacedOptions = {{
     {"classifier.movable_shift", "fixed at 0.2: nats"},
     {"classifier.fixed_shift", "fixed at -0.3: nats"},
     {"classifier.seed", "fixed: a run is varied by ego_motion.seed"},
+    {"memory.surface_m", "fixed at 0.06: roughness of a surface"},
+    {"memory.surface_per_square_m", "fixed at 0.0076: four sigmas of a Kinect's depth"},
     {"memory.persistence", "memory.log_odds_decay_s"},
     {"memory.suspicion_gain", "memory.suspicion_rise_s"},
     {"memory.suspicion_persistence", "memory.suspicion_decay_s"},
@@ -129,6 +133,8 @@ inline constexpr std::array<ReplacedOption, 114> kReplacedOptions = {{
     {"memory.same_surface.per_square_m", "fixed at 0.0076: four sigmas of a Kinect's depth"},
     {"keep_floor.columns", "fixed at 4: keep_floor.fewest_cells says how many of 12 cells"},
     {"keep_floor.rows", "fixed at 3: keep_floor.fewest_cells says how many of 12 cells"},
+    {"mask_prediction.surface_m", "fixed at 0.06: roughness of a surface"},
+    {"mask_prediction.surface_per_square_m", "fixed at 0.0076: four sigmas of a Kinect's depth"},
     {"mask_prediction.same_surface.constant_m", "fixed at 0.06: roughness of a surface"},
     {"mask_prediction.same_surface.per_square_m", "fixed at 0.0076: four sigmas of a Kinect's depth"},
     {"mask_prediction.longest_gap_s", "fixed at 1: farther ahead nothing can be predicted"},

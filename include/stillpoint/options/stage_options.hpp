@@ -36,7 +36,6 @@ template <class Visit>
 void each_option(PropagatedPrior& stage, Visit& visit) {
   each_option(static_cast<BoxPrior&>(stage), visit);
   visit("longest_s", stage.carrying.longest_s);
-  visit.positive("half_life_s", stage.carrying.half_life_s);
 }
 
 // match/

@@ -32,8 +32,7 @@ namespace stillpoint {
 class PropagatedPrior : public ForegroundPrior {
  public:
   struct Carrying {
-    double longest_s = 2.0;    ///< a thing that was not seen for longer is forgotten
-    double half_life_s = 1.0;  ///< in which the confidence of an unseen box halves
+    double longest_s = 2.0;  ///< an object that was not seen for longer is forgotten
   };
   Carrying carrying;
 
@@ -97,6 +96,7 @@ class PropagatedPrior : public ForegroundPrior {
   }
 
  private:
+  static constexpr double kHalfLife_s = 1.0;         // in which the confidence of an unseen box halves
   static constexpr int kMostMissed = 8;              // a thing that was missing in more answers in a row is forgotten
   static constexpr double kGrowth_per_s = 0.2;       // share of its size by which an unseen box grows on each side
   static constexpr float kLeastOverlap = 0.2f;       // intersection over union: above, a new box is a carried thing's
@@ -173,7 +173,7 @@ class PropagatedPrior : public ForegroundPrior {
   }
 
   void append(const CarriedDetection& thing, double unseen_s, Regions& regions) const {
-    const auto decay = static_cast<float>(std::exp2(-unseen_s / carrying.half_life_s));
+    const auto decay = static_cast<float>(std::exp2(-unseen_s / kHalfLife_s));
     const Detection grown = thing.grown(static_cast<float>(kGrowth_per_s * unseen_s), decay);
     if (is_valid(grown)) regions.detections.push_back(grown);
   }

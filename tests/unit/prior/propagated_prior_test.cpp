@@ -234,17 +234,16 @@ TEST_F(PropagatedPriorTest, TooFewFeaturesCarryNothing) {
 }
 
 TEST_F(PropagatedPriorTest, WhatIsNotSeenGrowsUncertain) {
-  prior_.carrying.half_life_s = 0.5;
   prior_.detections = {seen(truth_, 0.8f)};
   next();
   Regions regions;
   for (int i = 0; i < 5; ++i) regions = next();
-  // Half a second: each side a tenth of the size farther out, half of the confidence.
+  // Half a second: each side a tenth of the size farther out, half of a half-life for the confidence.
   ASSERT_EQ(regions.detections.size(), 1u);
   expect_box(regions.detections[0].box, {96, 74, 48, 72}, 1e-3f);
-  EXPECT_NEAR(regions.detections[0].confidence, 0.4f, 1e-5f);
+  EXPECT_NEAR(regions.detections[0].confidence, 0.8f / std::sqrt(2.0f), 1e-5f);
   expect_at_truth(only_thing().detection.box);  // only what is handed on grows
-  prior_.options.lowest_confidence = 0.5f;
+  prior_.options.lowest_confidence = 0.55f;     // 0.8 · 2^−0.6 is 0.53
   EXPECT_TRUE(next().detections.empty()) << "doubted";
   prior_.detections = {seen(truth_, 0.8f)};
   expect_box(next().detections.at(0).box, truth_, 0.0f);
