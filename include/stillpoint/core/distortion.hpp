@@ -98,10 +98,13 @@ struct EquidistantFisheye {
 struct AnyDistortion {
   std::variant<NoDistortion, BrownConrady, EquidistantFisheye> model;
 
+  // Most depth images come rectified: then nothing is called.
   Vector2d distort(const Vector2d& ideal) const {
+    if (std::holds_alternative<NoDistortion>(model)) return ideal;
     return std::visit([&ideal](const auto& lens) { return lens.distort(ideal); }, model);
   }
   Vector2d undistort(const Vector2d& distorted) const {
+    if (std::holds_alternative<NoDistortion>(model)) return distorted;
     return std::visit([&distorted](const auto& lens) { return lens.undistort(distorted); }, model);
   }
 };

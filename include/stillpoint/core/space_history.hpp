@@ -18,7 +18,7 @@ namespace stillpoint {
 
 /// A depth image, pooled: the nearest depth of each block of pixels.
 struct PooledDepth {
-  std::vector<float> nearest_m;  ///< row by row; 0 where less than half of the block has a depth
+  std::vector<float> nearest_m;  ///< of a block and those around it, row by row; 0 where half of one has no depth
   int width = 0, height = 0;
   float block_px = 4;  ///< pixels of the gray image to a side of a block
   double timestamp_s = 0.0;
@@ -26,14 +26,9 @@ struct PooledDepth {
 
   /// The nearest depth within one block around a pixel, metres; 0 where a block there is unknown or outside.
   float nearest_around(const Vector2f& pixel) const noexcept {
-    const float u0 = (pixel.x() + 0.5f) / block_px, v0 = (pixel.y() + 0.5f) / block_px;
-    if (!(u0 >= 1.0f && v0 >= 1.0f && u0 < static_cast<float>(width - 1) && v0 < static_cast<float>(height - 1)))
-      return 0.0f;
-    const int u = static_cast<int>(u0), v = static_cast<int>(v0);
-    float nearest = std::numeric_limits<float>::infinity();
-    for (int j = -1; j <= 1; ++j)
-      for (int i = -1; i <= 1; ++i) nearest = std::min(nearest, nearest_m[index(u + i, v + j)]);
-    return nearest;
+    const float u = (pixel.x() + 0.5f) / block_px, v = (pixel.y() + 0.5f) / block_px;
+    if (!(u >= 0.0f && v >= 0.0f && u < static_cast<float>(width) && v < static_cast<float>(height))) return 0.0f;
+    return nearest_m[index(static_cast<int>(u), static_cast<int>(v))];
   }
 
   void assign(const FrameView& frame, const Pose& pose) {
@@ -65,9 +60,32 @@ struct PooledDepth {
           }
         if (2 * known >= (last_u - first_u) * (last_v - first_v)) nearest_m[index(u, v)] = nearest;
       }
+    spread_nearest();
   }
 
  private:
+  /// Least of three by three, in place: each row's least of three, then the rows above and below. A border block has
+  /// neighbours that are unknown.
+  void spread_nearest() {
+    for (int v = 0; v < height; ++v) {
+      float* const row = nearest_m.data() + index(0, v);
+      float left = 0.0f;
+      for (int u = 0; u < width; ++u) {
+        const float here = row[u], right = u + 1 < width ? row[u + 1] : 0.0f;
+        row[u] = std::min({left, here, right});
+        left = here;
+      }
+    }
+    for (int u = 0; u < width; ++u) {
+      float above = 0.0f;
+      for (int v = 0; v < height; ++v) {
+        const float here = nearest_m[index(u, v)], below = v + 1 < height ? nearest_m[index(u, v + 1)] : 0.0f;
+        nearest_m[index(u, v)] = std::min({above, here, below});
+        above = here;
+      }
+    }
+  }
+
   std::size_t index(int u, int v) const noexcept {
     return static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u);
   }

@@ -49,6 +49,7 @@ class BlurredImage {
   bool empty() const noexcept { return width_ == 0; }
   int width() const noexcept { return width_; }
   int height() const noexcept { return height_; }
+  float scale() const noexcept { return scale_; }  ///< pixels of the full-sized image to one of this
   float at(int u, int v) const noexcept { return value_[index(u, v)]; }
 
   /// A pixel of this image in the full-sized one.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -38,24 +39,25 @@ class CoarseAlignment {
     current_[0].assign_half(current_[1], kBlur_px / 2);
   }
 
-  /// @param expected  reference_from_current, where the search begins; it begins at no motion, too
+  /// @param expected  reference_from_current, where the search begins; it begins at no motion, too, where that is
+  ///                  outside of its basin
   /// @return          reference_from_current; `expected` where nothing better is found. O(pixels of the small images).
   template <class Camera>
   Pose align(const DepthView& depth, const ImageView& gray, const Pose& expected, const Camera& camera) {
     if (reference_[1].empty() || reference_[1].width() != current_[1].width()) return expected;
-    Estimate best;
+    Estimate best{expected};
     for (std::size_t level = 0; level < current_.size(); ++level) {
       collect_points(current_[level], depth, gray, camera);
       if (points_.size() < kFewestPoints) return expected;
+      const Estimate found = descend(best.reference_from_current, reference_[level], camera);
       if (level == 0) {
-        best = descend(expected, reference_[0], camera);
+        best = found;
+        if (!(image_motion_px(expected, camera) > reference_[0].scale())) continue;
         const Estimate resting = descend(Pose::Identity(), reference_[0], camera);
         if (resting.cost < best.cost) best = resting;
       } else {
-        const Estimate fine = descend(best.reference_from_current, reference_[level], camera);
-        const double before = cost_of(expected, reference_[level], camera);
-        if (!(fine.cost < before)) return expected;
-        best = fine;
+        if (!(found.cost < step_at(expected, reference_[level], camera).cost)) return expected;
+        best = found;
       }
     }
     return best.reference_from_current;
@@ -114,87 +116,95 @@ class CoarseAlignment {
       if (point.point.z() < 0) point.point *= -typical_depth_m_;
   }
 
-  /// Tukey's loss, scaled to 1 at the cutoff and beyond.
-  static double loss(double residual) noexcept {
-    const double share = residual * residual / double{kCutoff * kCutoff};
-    const double rest = 1.0 - std::min(share, 1.0);
-    return 1.0 - rest * rest * rest;
-  }
-
-  template <class Camera>
-  double cost_of(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
-    double sum = 0, weights = 0;
-    for (const Point& point : points_) {
-      const Vector3d there = pose * point.point;
-      float value = 0;
-      Vector2f slope;
-      auto weight = static_cast<double>(point.weight);
-      double cost = kUnseen;
-      if (there.z() > kNearest_m) {
-        const Vector2f pixel = pixel_of(there, camera);
-        if (image.sample(pixel, value, slope)) {
-          weight *= static_cast<double>(reference_weights.at(pixel));
-          cost = loss(static_cast<double>(value - point.value));
-        }
-      }
-      sum += weight * cost;
-      weights += weight;
-    }
-    return weights > 0 ? sum / weights : 1.0;
-  }
-
   template <class Camera>
   static Vector2f pixel_of(const Vector3d& point, const Camera& camera) {
     return camera.distort(camera.project(point)).template cast<float>();
   }
 
+  /// How far a point of the image's middle moves, or turns, pixels.
+  template <class Camera>
+  double image_motion_px(const Pose& motion, const Camera& camera) const {
+    const Vector3d ahead(0, 0, typical_depth_m_);
+    const Vector3d there = motion * ahead;
+    if (!(there.z() > kNearest_m)) return std::numeric_limits<double>::infinity();
+    return (camera.project(there) - camera.project(ahead)).norm();
+  }
+
+  /// A pose, the cost there, and the next step of Gauss and Newton.
+  struct Step {
+    double cost = 1.0;
+    Vector6d increment = Vector6d::Zero();  ///< rotation vector, translation, from the left
+  };
+
+  template <class Camera>
+  Step step_at(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
+    using Row = Eigen::Matrix<float, 6, 1>;
+    Eigen::Matrix<float, 6, 6> normal = Eigen::Matrix<float, 6, 6>::Zero();
+    Row gradient = Row::Zero();
+    float costs = 0, weights = 0;
+    const auto fx = static_cast<float>(camera.fx()), fy = static_cast<float>(camera.fy());
+    for (const Point& point : points_) {
+      const Vector3d there = pose * point.point;
+      float value = 0;
+      Vector2f slope;
+      if (!(there.z() > kNearest_m)) {
+        costs += point.weight * kUnseen;
+        weights += point.weight;
+        continue;
+      }
+      const Vector2f pixel = pixel_of(there, camera);
+      if (!image.sample(pixel, value, slope)) {
+        costs += point.weight * kUnseen;
+        weights += point.weight;
+        continue;
+      }
+      const float prior = point.weight * reference_weights.at(pixel), residual = value - point.value;
+      const float rest = std::max(1.0f - residual * residual / (kCutoff * kCutoff), 0.0f);
+      costs += prior * (1.0f - rest * rest * rest);  // Tukey's loss, scaled to 1 at the cutoff and beyond
+      weights += prior;
+      // ∂value / ∂there by the chain rule; there moves by ω × there + v.
+      const Eigen::Vector3f at = there.cast<float>();
+      const float gx = slope.x() * fx / at.z(), gy = slope.y() * fy / at.z();
+      const Eigen::Vector3f g(gx, gy, -(gx * at.x() + gy * at.y()) / at.z());
+      Row row;
+      row << at.cross(g), g;
+      const Row weighted = (rest * rest * prior) * row;
+      normal.noalias() += weighted * row.transpose();
+      gradient += residual * weighted;
+    }
+    Step step;
+    if (!(weights > 0)) return step;
+    step.cost = static_cast<double>(costs / weights);
+    const Matrix6d held = normal.cast<double>() + kHold * Matrix6d::Identity();
+    step.increment = -held.ldlt().solve(gradient.cast<double>());
+    return step;
+  }
+
   template <class Camera>
   Estimate descend(const Pose& start, const BlurredImage& image, const Camera& camera) const {
-    Estimate estimate{start, cost_of(start, image, camera)};
+    Estimate estimate{start};
     Pose pose = start;
     for (int iteration = 0; iteration < kMostSteps; ++iteration) {
-      Matrix6d normal = kHold * Matrix6d::Identity();
-      Vector6d gradient = Vector6d::Zero();
-      for (const Point& point : points_) {
-        const Vector3d there = pose * point.point;
-        float value = 0;
-        Vector2f slope;
-        if (!(there.z() > kNearest_m)) continue;
-        const Vector2f pixel = pixel_of(there, camera);
-        if (!image.sample(pixel, value, slope)) continue;
-        const auto residual = static_cast<double>(value - point.value);
-        const double rest = 1.0 - residual * residual / double{kCutoff * kCutoff};
-        if (!(rest > 0)) continue;
-        // ∂value / ∂there by the chain rule; there moves by ω × there + v.
-        const double gx = static_cast<double>(slope.x()) * camera.fx() / there.z();
-        const double gy = static_cast<double>(slope.y()) * camera.fy() / there.z();
-        const Vector3d g(gx, gy, -(gx * there.x() + gy * there.y()) / there.z());
-        Vector6d row;
-        row << there.cross(g), g;
-        const double weight = rest * rest * static_cast<double>(point.weight * reference_weights.at(pixel));
-        normal.template selfadjointView<Eigen::Lower>().rankUpdate(row, weight);
-        gradient += weight * residual * row;
-      }
-      const Vector6d x = -normal.template selfadjointView<Eigen::Lower>().ldlt().solve(gradient);
-      if (!x.allFinite()) break;
-      const double length = std::max(x.head<3>().norm(), x.tail<3>().norm());
+      const Step step = step_at(pose, image, camera);
+      const bool settled = !(step.cost < kSettled * estimate.cost) && iteration > 0;
+      if (iteration == 0 || step.cost < estimate.cost) estimate = {pose, step.cost};
+      const double length = std::max(step.increment.head<3>().norm(), step.increment.tail<3>().norm());
+      if (settled || !(length > kShortestStep)) break;
       const double held = length > kLongestStep ? kLongestStep / length : 1.0;
-      Pose step = Pose::Identity();
-      step.linear() = rotation_from_vector(Vector3d(held * x.head<3>()));
-      step.translation() = held * x.tail<3>();
-      pose = orthonormalized(step * pose);
-      const double cost = cost_of(pose, image, camera);
-      if (cost < estimate.cost) estimate = {pose, cost};
-      if (length < kShortestStep) break;
+      Pose moved = Pose::Identity();
+      moved.linear() = rotation_from_vector(Vector3d(held * step.increment.head<3>()));
+      moved.translation() = held * step.increment.tail<3>();
+      pose = orthonormalized(moved * pose);
     }
     return estimate;
   }
 
   static constexpr double kNearest_m = 0.1;
-  static constexpr double kUnseen = 0.5;         // loss of a point that leaves the image: neither gain nor loss
+  static constexpr float kUnseen = 0.5f;         // loss of a point that leaves the image: neither gain nor loss
   static constexpr double kHold = 1e-3;          // keeps what nothing is known of
   static constexpr double kLongestStep = 0.15;   // radians, metres
   static constexpr double kShortestStep = 5e-4;  // radians, metres: a quarter of a pixel
+  static constexpr double kSettled = 0.995;      // of the last cost: a step that gains less is the last
 
   std::array<BlurredImage, 2> reference_, current_;  // coarse, fine
   std::vector<Point> points_;

@@ -161,23 +161,22 @@ class LookBack {
                            older.reference_from_current, camera, guard, kSameSurface);
       if (borrowed_m > 0 && count < candidates.size()) candidates[count++] = borrowed_m;
     }
-    float least = std::numeric_limits<float>::infinity();
-    std::size_t best = 0, last = count;  // candidates
-    const auto look_at = [&](std::size_t c) {
+    const auto spread_of = [&](std::size_t c) {
       const double depth_m = candidates[c];
       const double supposed_spread = supposed > 1 ? kSupposedSpread : kBridgedSpread;
-      const double spread =
-          c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
-      last = c;
-      return look(i, depth_m, spread, history, current, camera, noise, matches);
+      return c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
     };
+    std::size_t best = 0, last = count;
+    float least = std::numeric_limits<float>::infinity();
     for (std::size_t c = count; c-- > 0;) {
-      const float dissimilarity = look_at(c);
+      const float dissimilarity = look(i, candidates[c], spread_of(c), history, current, camera, noise, matches);
+      last = c;
       if (!(dissimilarity < least)) continue;
       least = dissimilarity;
       best = c;
+      if (clearly_stands(i, matches.sightings.frames())) break;
     }
-    if (best != last) look_at(best);
+    if (best != last) look(i, candidates[best], spread_of(best), history, current, camera, noise, matches);
   }
 
   /// Looks for a feature in every older frame.
@@ -220,7 +219,7 @@ class LookBack {
       return sighting.state == SightingState::seen && sighting.dissimilarity < kClearlyAlike &&
              sighting.offset_px < kClearlyThere_px;
     };
-    return agrees(frames[0]) && agrees(frames[frames.size() - 1]);
+    return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
   }
 
   template <class Camera, class Noise>
@@ -286,12 +285,12 @@ class LookBack {
   template <class Camera>
   static Eigen::Matrix2f view_warp(const Camera& camera, const Vector3d& here, const Vector3d& there,
                                    const Pose& reference_from_current) {
-    Eigen::Matrix<double, 2, 3> projection;
-    projection << camera.fx(), 0, -camera.fx() * there.x() / there.z(),  //
-        0, camera.fy(), -camera.fy() * there.y() / there.z();
-    Eigen::Matrix<double, 3, 2> step;
-    step << here.z() / camera.fx(), 0, 0, here.z() / camera.fy(), 0, 0;
-    return (projection * reference_from_current.linear() * step / there.z()).template cast<float>();
+    const Eigen::Matrix3d& turn = reference_from_current.linear();
+    const double x = there.x() / there.z(), y = there.y() / there.z(), aspect = camera.fx() / camera.fy();
+    Eigen::Matrix2d warp;
+    warp << turn(0, 0) - x * turn(2, 0), aspect * (turn(0, 1) - x * turn(2, 1)),  //
+        (turn(1, 0) - y * turn(2, 0)) / aspect, turn(1, 1) - y * turn(2, 1);
+    return (here.z() / there.z() * warp).template cast<float>();
   }
 };
 

@@ -8,6 +8,7 @@
 // Environments", RA-L 2023: what occupies space that was known to be free is dynamic.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -85,10 +86,11 @@ class SpaceSearch {
         const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
         const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
         if (!(nearest_m > 0)) return Space::unknown;
-        const double margin_m =
-            kMargin_m + kDrift_m_s * elapsed_s + kSigmas * (noise.sigma(there.z()) + noise.sigma(nearest_m));
-        if (nearest_m > there.z() + margin_m) return Space::free;
-        return nearest_m > there.z() - margin_m ? Space::occupied : Space::unknown;
+        const double behind_m = nearest_m - there.z(), certain_m = kMargin_m + kDrift_m_s * elapsed_s;
+        if (std::abs(behind_m) < certain_m) return Space::occupied;
+        const double margin_m = certain_m + kSigmas * (noise.sigma(there.z()) + noise.sigma(nearest_m));
+        if (behind_m > margin_m) return Space::free;
+        return behind_m > -margin_m ? Space::occupied : Space::unknown;
       });
     }
   }
