@@ -23,7 +23,6 @@ struct SupportConstraints {
   double pixel_sigma = 1.0;     ///< of a followed corner, pixels
   double depth_sigmas = 1.5;    ///< measured depth noise over the model's
   double dynamic_trust = 0.15;  ///< weight of what lies in a dynamic region
-  double movable_trust = 0.6;   ///< and in a movable one
 
   // No option in files.
   double surface_weight = 0.8;  ///< of a surface cell: depth errors of neighbours are not independent
@@ -94,6 +93,7 @@ struct SupportConstraints {
   }
 
  private:
+  static constexpr double kMovableTrust = 0.6;     // weight of what lies in a movable region: a chair seldom moves
   static constexpr double kDepthFloor_m = 0.003;   // what is left when the noise model's is nothing
   static constexpr double kDepthlessSpread = 0.3;  // standard deviation of an unknown inverse depth, of the median one
   static constexpr float kMostDissimilar = 0.25f;  // an observation that is less alike says nothing of the motion
@@ -105,7 +105,7 @@ struct SupportConstraints {
   void set_weight(PointConstraint& point, const Matches& matches, const Regions& regions,
                   std::size_t i) const noexcept {
     const Membership& region = regions.of_feature[i];
-    point.trusted_weight = region.in_dynamic ? dynamic_trust : region.in_movable ? movable_trust : 1.0;
+    point.trusted_weight = region.in_dynamic ? dynamic_trust : region.in_movable ? kMovableTrust : 1.0;
     point.weight = point.trusted_weight * static_cast<double>(matches.trust[i]);
   }
 

@@ -17,7 +17,7 @@ struct ReplacedOption {
 };
 
 // clang-format off
-inline constexpr std::array<ReplacedOption, 120> kReplacedOptions = {{
+inline constexpr std::array<ReplacedOption, 121> kReplacedOptions = {{
     {"depth_lookup.fewest_neighbours", "fixed at 6: pixels of nine with a depth"},
     {"depth_lookup.jump_m", "fixed at 0.03: an edge is as deep for every user"},
     {"depth_lookup.jump_per_square_m", "fixed at 0.011: six sigmas of a Kinect's depth"},
@@ -72,6 +72,7 @@ inline constexpr std::array<ReplacedOption, 120> kReplacedOptions = {{
     {"ego_motion.constraints.depthless_spread", "fixed at 0.3: of an unknown inverse depth"},
     {"ego_motion.constraints.surface_weight", "fixed at 0.8: errors of neighbours are not independent"},
     {"ego_motion.constraints.most_dissimilar", "fixed at 0.25: less alike says nothing of the motion"},
+    {"ego_motion.constraints.movable_trust", "fixed at 0.6: changed no recording"},
     {"ego_motion.standing.rest_px", "fixed at 0.3: three sigmas of a corner at rest"},
     {"ego_motion.standing.begins_share", "fixed at 0.9: of the corners"},
     {"ego_motion.standing.majority_share", "fixed at 0.5: of the corners"},

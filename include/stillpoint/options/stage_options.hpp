@@ -73,7 +73,6 @@ void each_option(SupportConstraints& constraints, Visit& visit) {
   visit.positive("pixel_sigma", constraints.pixel_sigma);
   visit("depth_sigmas", constraints.depth_sigmas);
   visit("dynamic_trust", constraints.dynamic_trust);
-  visit("movable_trust", constraints.movable_trust);
 }
 
 template <class Visit>
