@@ -118,6 +118,9 @@ int main(int argument_count, char** arguments) {
     return 0;
   } catch (const stillpoint_run::NothingToRun&) {
     return 0;
+  } catch (const stillpoint::ReplacedOptionsError& error) {  // the one with a list
+    std::fprintf(stderr, "stillpoint_run: %s\n", error.what());
+    return kFailed;
   } catch (const std::exception& error) {
     std::string line = error.what();
     line = line.substr(0, line.find('\n'));

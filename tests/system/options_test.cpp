@@ -40,7 +40,8 @@ TEST(StageOptionsOfARun, AreLeftBehindAndRepeatIt) {
 
 TEST(StageOptionsOfARun, CommandLineGoesBeforeTheFile) {
   const TemporaryFolder folder;
-  write_text(folder / "mine.yaml", "%YAML:1.0\n---\ngate:\n   false_positive_rate: 0.2\nscorer:\n   depth_sigmas: 0.5\n");
+  write_text(folder / "mine.yaml",
+             "%YAML:1.0\n---\ngate:\n   false_positive_rate: 0.2\nscorer:\n   depth_sigmas: 0.5\n");
   const std::string file = "--options " + quoted(folder / "mine.yaml");
   ASSERT_EQ(demo(folder / "out", file + " --false-positive-rate 0.04").status, 0);
   EXPECT_EQ(report(folder / "out")["options"]["gate"]["false_positive_rate"], 0.04);
@@ -85,6 +86,18 @@ TEST(StageOptionsOfARun, FileThatIsWrongIsOneLine) {
             std::string::npos)
       << outcome.error;
   EXPECT_FALSE(fs::exists(folder / "out" / "report.json"));
+}
+
+TEST(StageOptionsOfARun, EachOptionThatIsGoneIsALine) {
+  const TemporaryFolder folder;
+  write_text(folder / "old.yaml", "%YAML:1.0\n---\ngate:\n   decay: 0.8\nmemory:\n   persistence: 0.7\n");
+  const Outcome outcome = demo(folder / "out", "--options " + quoted(folder / "old.yaml"));
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_NE(outcome.error.find("old.yaml: 2 options are gone; delete or rename\n  gate.decay: fixed at 0.8"),
+            std::string::npos)
+      << outcome.error;
+  EXPECT_NE(outcome.error.find("\n  memory.persistence: memory.log_odds_decay_s\n"), std::string::npos)
+      << outcome.error;
 }
 
 // The renderer's sensor is a Kinect by KinectNoise, in steps of its factor: 0.2 mm.

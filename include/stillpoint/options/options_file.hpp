@@ -197,6 +197,12 @@ class OptionReader {
 
 }  // namespace detail
 
+/// A file holds options that earlier versions had. What it says is a line, and one for each of them.
+class ReplacedOptionsError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// All options of a filter's stages as YAML (OpenCV's FileStorage), one map a stage.
 template <class Policies>
 std::string options_as_yaml(FrameFilter<Policies>& filter) {
@@ -217,8 +223,8 @@ void write_options(const std::filesystem::path& file, FrameFilter<Policies>& fil
 
 /// Sets the options that a file names; the others stay. Call it before the first frame.
 /// @throws Error naming file and option, what was found and what was expected: an option that no stage of this filter
-///         has, a value of the wrong kind or out of range. Where the file holds options that earlier versions had, what
-///         replaced each of them, a line each. Then no option was changed.
+///         has, a value of the wrong kind or out of range. `ReplacedOptionsError` naming what replaced each, where
+///         it holds options that earlier versions had. Then no option was changed.
 template <class Policies>
 void read_options(const std::filesystem::path& file, FrameFilter<Policies>& filter) {
   const YamlFile yaml(file);
@@ -230,8 +236,9 @@ void read_options(const std::filesystem::path& file, FrameFilter<Policies>& filt
     if (replaced.empty()) continue;
     std::string list;
     for (const std::string& line : replaced) list += "\n  " + line;
-    throw Error(file.string() + ": " + std::to_string(replaced.size()) +
-                (replaced.size() == 1 ? " option is" : " options are") + " gone; delete or rename" + list);
+    throw ReplacedOptionsError(file.string() + ": " + std::to_string(replaced.size()) +
+                               (replaced.size() == 1 ? " option is" : " options are") + " gone; delete or rename" +
+                               list);
   }
 }
 
