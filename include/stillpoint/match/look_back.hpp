@@ -159,7 +159,9 @@ class LookBack {
       const double borrowed_m =
           borrowed_depth_m(matches.current.undistorted[i], beside.farthest_m, history.back(older.age).view(),
                            older.reference_from_current, camera, guard, options.same_surface);
-      if (borrowed_m > 0 && count < candidates.size()) candidates[count++] = borrowed_m;
+      const bool is_known =
+          count > supposed && std::abs(borrowed_m - candidates[count - 1]) < kBorrowedSigmas * noise.sigma(borrowed_m);
+      if (borrowed_m > 0 && !is_known && count < candidates.size()) candidates[count++] = borrowed_m;
     }
     const auto spread_of = [&](std::size_t c) {
       const double depth_m = candidates[c];
