@@ -53,7 +53,6 @@ FrameFilter<> make_filter(const LabelledSequence& sequence, const Arguments& arg
   FrameFilter<> filter(sequence.camera);
   if (!arguments.options_file.empty()) read_options(arguments.options_file, filter);
   filter.ego_motion.options.seed += run;
-  filter.classifier.options.seed += run;
   return filter;
 }
 

@@ -65,7 +65,7 @@ void switch_stages([[maybe_unused]] const Without& without,
   if constexpr (std::is_base_of_v<SwitchedPolicies, Policies>) {
     filter.scorer.is_whitened = !without("whitened");
     filter.gate.is_calibrated = !without("calibrated");
-    filter.gate.lowest = filter.classifier.options.lowest;
+    filter.gate.lowest = stillpoint::SurfaceClusters::kLowest;
     filter.classifier.tests_all = !without("all-features");
     filter.matcher.supports_by_area = !without("area-support");
     filter.depth_lookup.is_guarded = !without("depth-guard");
@@ -87,20 +87,18 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   stillpoint::SupportMotion& motion = detail::support_motion(filter.ego_motion);
   if (without("measured-noise")) motion.constraints.pixel_sigma = 0.1 / motion.options.inlier_sigmas;
   if (without("own-noise")) {
-    motion.options.least_pixel_sigma = motion.constraints.pixel_sigma;
-    motion.options.most_depth_noise = 1.0;
-    filter.gate.options.gain = 0.0;
+    motion.measures_noise = false;
+    filter.gate.gain = 0.0;
   }
-  if (without("standing-camera"))
-    motion.standing.begins_share = motion.standing.majority_share = motion.standing.continues_share = 1.0;
-  if (without("past-hypothesis")) motion.options.past_preference = std::numeric_limits<double>::infinity();
+  if (without("standing-camera")) motion.standing.is_enabled = false;
+  if (without("past-hypothesis")) motion.past_preference = std::numeric_limits<double>::infinity();
   if (without("inertia")) motion.inertia.acceleration_m_s2 = 0.0;
   if (without("clusters")) {
-    auto& clusters = filter.classifier.options;
-    clusters.features_per_cluster = 10;
+    stillpoint::SurfaceClusters& clusters = filter.classifier;
+    clusters.options.features_per_cluster = 10;
     clusters.fewest_clusters = 1;
     clusters.split_variance = kNever;
-    clusters.own_share = 0.0f;
+    clusters.options.own_share = 0.0f;
     // As long along the ray as across it: 40 px at 2 m are 0.15 m.
     clusters.depth_extent_m = 0.15;
     clusters.depth_extent_growth = 1e-9;
@@ -109,18 +107,17 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   if (without("lost-features")) {
     constexpr double kOfLook = 0.5;  // of the score that 1 % of the standing features of static_room exceed
     filter.scorer.options.most_from_look = 0.0;
-    filter.scorer.options.expected_patch -= kOfLook;
+    filter.scorer.expected_patch -= kOfLook;
   }
   if (without("depth-guard")) {
-    auto& guard = filter.matcher.older.guard.options;
+    stillpoint::GuardedDepth& guard = filter.matcher.older.guard;
     guard.fewest_neighbours = 1;
     guard.jump_m = std::numeric_limits<double>::infinity();
-    filter.matcher.older.surfaces.guard.options = guard;
+    filter.matcher.older.surfaces.guard = guard;
   }
   if (without("memory")) {
     auto& memory = filter.memory.options;
     memory.log_odds_decay_s = memory.suspicion_decay_s = 0.0;
-    memory.keep_below = memory.drop_above;
   }
   if (without("keep-floor")) filter.keep_floor.options.fewest_features = filter.keep_floor.options.fewest_cells = 0;
 }

@@ -130,7 +130,7 @@ struct SwitchedClusters : stillpoint::SurfaceClusters {
     stillpoint::SurfaceClusters::classify(matches, scores, threshold, regions, labels, workspace);
     if (tests_all) return;
     for (std::size_t i = 0; i < matches.size(); ++i)
-      if (!regions.of_feature[i].in_dynamic) labels[i].log_odds = std::min(labels[i].log_odds, options.alone);
+      if (!regions.of_feature[i].in_dynamic) labels[i].log_odds = std::min(labels[i].log_odds, kAlone);
   }
 };
 

@@ -73,7 +73,7 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const F
   auto filter = make_filter<Policies>(options, source.camera(), [&](auto& set, const auto& says) {
     if (says("--depth-noise")) set.depth_noise = depth_noise(options, source);
     if (says("--false-positive-rate")) set.gate.options.false_positive_rate = options.false_positive_rate;
-    if (says("--seed")) support_motion(set.ego_motion).options.seed = set.classifier.options.seed = options.seed;
+    if (says("--seed")) support_motion(set.ego_motion).options.seed = options.seed;
   });
   if constexpr (std::is_base_of_v<SwitchedPolicies, Policies>) {
     filter.ego_motion.kind = motion_kind(options.ego_motion);

@@ -40,11 +40,11 @@ TEST(StageOptionsOfARun, AreLeftBehindAndRepeatIt) {
 
 TEST(StageOptionsOfARun, CommandLineGoesBeforeTheFile) {
   const TemporaryFolder folder;
-  write_text(folder / "mine.yaml", "%YAML:1.0\n---\ngate:\n   false_positive_rate: 0.2\n   decay: 0.5\n");
+  write_text(folder / "mine.yaml", "%YAML:1.0\n---\ngate:\n   false_positive_rate: 0.2\nscorer:\n   depth_sigmas: 0.5\n");
   const std::string file = "--options " + quoted(folder / "mine.yaml");
   ASSERT_EQ(demo(folder / "out", file + " --false-positive-rate 0.04").status, 0);
   EXPECT_EQ(report(folder / "out")["options"]["gate"]["false_positive_rate"], 0.04);
-  EXPECT_EQ(report(folder / "out")["options"]["gate"]["decay"], 0.5);
+  EXPECT_EQ(report(folder / "out")["options"]["scorer"]["depth_sigmas"], 0.5);
 }
 
 TEST(StageOptionsOfARun, OfStagesThatAreSwitchedOffAreTakenToo) {

@@ -27,36 +27,26 @@ class SurfaceClusters {
  public:
   struct Options {
     std::size_t features_per_cluster = 30;
-    std::size_t fewest_clusters = 2;
-    std::size_t fewest_members = 3;       ///< of each part of a split
-    int max_iterations = 3;               ///< of K-means: a fourth and a fifth changed nothing
-    double extent_px = 40.0;              ///< what one unit of the clusters' lateral coordinates is in the image
-    double depth_extent_m = 0.0436;       ///< and of the depth coordinate, at the nearest depth …
-    double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond `nearest_m`: three Kinect sigmas
-    double nearest_m = 0.4;
-    float lowest = -2.0f, highest = 10.0f;  ///< a single score is held between these, nats
-    float own_share = 0.5f;         ///< of a feature's own score in its log-odds; the rest is its cluster's mean
-    float split_variance = 9.0f;    ///< a cluster whose scores vary less is one population, squared nats
-    float split_explained = 0.8f;   ///< share of the variance that two populations must explain
-    float neighbour_px = 25.0f;     ///< how far a feature without evidence looks for others
-    float neighbour_share = 0.7f;   ///< of their log-odds it takes over
-    float depthless_own = 0.4f;     ///< share of its own score in the log-odds of a feature without a depth
-    float depthless_shift = -1.5f;  ///< sensors lose depth at glass, metal and rims: few such features are on movers
-    float alone = -1.0f;            ///< log-odds of a feature that knows nothing and has no neighbours
-    float dynamic_shift = 2.4f;     ///< what a dynamic region adds to the log-odds
-    float outside_shift = -0.6f;    ///< what lies in no region when a detector has found something dynamic
-    float movable_shift = 0.2f;
-    float fixed_shift = -0.3f;
-    std::uint64_t seed = Random::kDefaultSeed;
+    float own_share = 0.5f;      ///< of a feature's own score in its log-odds; the rest is its cluster's mean
+    float dynamic_shift = 2.4f;  ///< what a dynamic region adds to the log-odds, nats
   };
   Options options;
+
+  // No options in files.
+  std::size_t fewest_clusters = 2;
+  float split_variance = 9.0f;          ///< a cluster whose scores vary less is one population, squared nats
+  double depth_extent_m = 0.0436;       ///< what one unit of the clusters' depth coordinate is, at `kNearest_m` …
+  double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond it: three Kinect sigmas
+
+  static constexpr float kLowest = -2.0f, kHighest = 10.0f;  ///< a single score is held between these, nats
+  static constexpr float kAlone = -1.0f;  ///< log-odds of a feature that knows nothing and has no neighbours, nats
 
   void classify(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
                 const Regions& regions, span<Label> labels, Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const span<float> common = workspace.take<float>(matches.size(), kNone);
     share_in_clusters(matches, scores, regions, labels, common, workspace);
-    const float neighbour_px = matches.pixel_scale * options.neighbour_px;
+    const float neighbour_px = matches.pixel_scale * kNeighbour_px;
     const PixelGrid grid(matches.current.pixel, 0.5f * neighbour_px, workspace,
                          [&](std::size_t i) { return !std::isnan(common[i]); });
     const auto level = static_cast<float>(threshold.level);
@@ -69,7 +59,7 @@ class SurfaceClusters {
         label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common[i], kMostShared) - level;
         label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
         if (!matches.current.has_depth(i) && i < matches.sightings.point.size() && matches.sightings.is_guess(i))
-          label.log_odds += options.depthless_shift;
+          label.log_odds += kDepthlessShift;
       } else {
         label.log_odds = without_depth(scores[i], matches.current.pixel[i], neighbour_px, grid, common, level);
         label.reason = scores[i].scored()                        ? Reason::consistent
@@ -81,7 +71,20 @@ class SurfaceClusters {
   }
 
  private:
-  static constexpr float kMostShared = 4.0f;  // nats of a cluster's mean: who clearly stands is not outvoted
+  static constexpr float kMostShared = 4.0f;        // nats of a cluster's mean: who clearly stands is not outvoted
+  static constexpr std::size_t kFewestMembers = 3;  // of each part of a split
+  static constexpr int kMaxIterations = 3;          // of K-means: a fourth and a fifth changed nothing
+  static constexpr double kExtent_px = 40.0;        // what one unit of the clusters' lateral coordinates is
+  static constexpr double kNearest_m = 0.4;         // of a depth sensor
+  static constexpr float kSplitExplained = 0.8f;    // share of the variance that two populations must explain
+  static constexpr float kNeighbour_px = 25.0f;     // how far a feature without evidence looks for others
+  static constexpr float kNeighbourShare = 0.7f;    // of their log-odds it takes over
+  static constexpr float kDepthlessOwn = 0.4f;  // share of its own score in the log-odds of a feature without a depth
+  static constexpr float kDepthlessShift = -1.5f;  // nats; depth is lost at glass, metal and rims, seldom on movers
+  static constexpr float kOutsideShift = -0.6f;    // nats; in no region when a detector has found something dynamic
+  static constexpr float kMovableShift = 0.2f;     // nats
+  static constexpr float kFixedShift = -0.3f;      // nats
+  static constexpr std::uint64_t kSeed = Random::kDefaultSeed;
   static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
   /// What the prior adds. In a box, what has no depth may lie before or behind the thing.
@@ -89,15 +92,13 @@ class SurfaceClusters {
     const bool in_any = region.in_dynamic || region.in_movable || region.in_fixed;
     if (in_any && !has_depth) return 0.0f;
     return region.in_dynamic   ? options.dynamic_shift
-           : region.in_movable ? options.movable_shift
-           : region.in_fixed   ? options.fixed_shift
-           : any_dynamic       ? options.outside_shift
+           : region.in_movable ? kMovableShift
+           : region.in_fixed   ? kFixedShift
+           : any_dynamic       ? kOutsideShift
                                : 0.0f;
   }
 
-  float held(const FeatureScore& score) const noexcept {
-    return std::clamp(score.value, options.lowest, options.highest);
-  }
+  float held(const FeatureScore& score) const noexcept { return std::clamp(score.value, kLowest, kHighest); }
 
   /// Of the surface that a feature lies on: measured, borrowed from an older frame, or that of what is beside it; 0
   /// none.
@@ -118,21 +119,21 @@ class SurfaceClusters {
     if (count == 0) return;
     PointArrays points(count, workspace);
     // ∫ dz / extent(z) with extent a + b (z − nearest)²: depth in units of its own noise.
-    const double a = options.depth_extent_m, b = options.depth_extent_growth;
+    const double a = depth_extent_m, b = depth_extent_growth;
     const double inside = std::sqrt(b / a), outside = 1.0 / std::sqrt(a * b);
-    const auto whitened = [&](double depth_m) { return outside * std::atan((depth_m - options.nearest_m) * inside); };
+    const auto whitened = [&](double depth_m) { return outside * std::atan((depth_m - kNearest_m) * inside); };
     for (std::size_t j = 0; j < count; ++j) {
       const std::size_t i = member[j];
       constexpr double kApart = 1000.0;  // regions share no cluster
       const Vector2d lateral =
-          matches.current.pixel[i].cast<double>() / (options.extent_px * static_cast<double>(matches.pixel_scale));
+          matches.current.pixel[i].cast<double>() / (kExtent_px * static_cast<double>(matches.pixel_scale));
       points.set(j, {lateral.x(), lateral.y(),
                      whitened(surface_depth_m(matches, i)) + kApart * (regions.of_feature[i].dynamic_region + 1)});
     }
-    const std::size_t wanted = std::max(options.fewest_clusters, count / options.features_per_cluster);
-    Random random(options.seed);
-    const KMeansResult clusters = lloyd(points, k_means_plus_plus(points, std::min(wanted, count), random, workspace),
-                                        options.max_iterations, workspace);
+    const std::size_t wanted = std::max(fewest_clusters, count / options.features_per_cluster);
+    Random random(kSeed);
+    const KMeansResult clusters =
+        lloyd(points, k_means_plus_plus(points, std::min(wanted, count), random, workspace), kMaxIterations, workspace);
     const span<std::size_t> begin = workspace.take<std::size_t>(clusters.centre.size() + 1);
     for (std::size_t c = 0; c < clusters.centre.size(); ++c) begin[c + 1] = begin[c] + clusters.member_count[c];
     const span<std::size_t> next = workspace.take<std::size_t>(clusters.centre.size());
@@ -180,11 +181,11 @@ class SurfaceClusters {
     }
     const float mean = sum / n, variance = sum_squares / n - mean * mean;
     Split best{0.0f, mean, mean, mean};
-    if (!(variance > options.split_variance)) return best;
-    float below = 0, most = options.split_explained * variance;
+    if (!(variance > split_variance)) return best;
+    float below = 0, most = kSplitExplained * variance;
     for (std::size_t k = 1; k < sorted.size(); ++k) {
       below += sorted[k - 1];
-      if (k < options.fewest_members || sorted.size() - k < options.fewest_members) continue;
+      if (k < kFewestMembers || sorted.size() - k < kFewestMembers) continue;
       const auto nk = static_cast<float>(k);
       const float low = below / nk, high = (sum - below) / (n - nk);
       const float between = nk * (n - nk) / (n * n) * (high - low) * (high - low);
@@ -199,7 +200,7 @@ class SurfaceClusters {
   float without_depth(const FeatureScore& score, const Vector2f& pixel, float reach_px, const PixelGrid& grid,
                       span<const float> common, float level) const {
     const float others = from_neighbours(pixel, reach_px, grid, common, level);
-    const float own_share = score.scored() ? options.depthless_own : 0.0f;
+    const float own_share = score.scored() ? kDepthlessOwn : 0.0f;
     const float own = score.scored() ? held(score) - level : 0.0f;
     return own_share * own + (1.0f - own_share) * others;
   }
@@ -213,7 +214,7 @@ class SurfaceClusters {
       weight += near * near;
       sum += near * near * (common[j] - level);
     });
-    return weight > 0 ? options.neighbour_share * sum / weight : options.alone;
+    return weight > 0 ? kNeighbourShare * sum / weight : kAlone;
   }
 };
 

@@ -16,12 +16,10 @@ namespace stillpoint {
 /// Depth at the rounded pixel, if its 3 × 3 neighbourhood is one surface: at a hole or a jump there is none, and
 /// nothing is interpolated across an edge.
 struct GuardedDepth {
-  struct Options {
-    int fewest_neighbours = 6;         ///< of the nine pixels that must have a depth
-    double jump_m = 0.03;              ///< more difference within the neighbourhood is an edge, at depth 0 …
-    double jump_per_square_m = 0.011;  ///< … and this much more per square metre of depth: six Kinect sigmas
-  };
-  Options options;
+  // No options in files.
+  int fewest_neighbours = 6;         ///< of the nine pixels that must have a depth
+  double jump_m = 0.03;              ///< more difference within the neighbourhood is an edge, at depth 0 …
+  double jump_per_square_m = 0.011;  ///< … and this much more per square metre of depth: six Kinect sigmas
 
   /// @return metres, 0 where there is none.
   double at(const DepthView& depth, const Vector2f& pixel) const noexcept {
@@ -54,11 +52,11 @@ struct GuardedDepth {
         farthest = counts && row[i] > farthest ? row[i] : farthest;
       }
     }
-    if (neighbours < options.fewest_neighbours) return 0.0;
+    if (neighbours < fewest_neighbours) return 0.0;
     const auto centre_m = static_cast<double>(depth.metres(centre));
     const double difference_m =
         static_cast<double>(depth.metres(farthest)) - static_cast<double>(depth.metres(nearest));
-    return difference_m <= options.jump_m + options.jump_per_square_m * centre_m * centre_m ? centre_m : 0.0;
+    return difference_m <= jump_m + jump_per_square_m * centre_m * centre_m ? centre_m : 0.0;
   }
 
   static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }

@@ -31,8 +31,6 @@ class MaskPrediction {
  public:
   struct Options {
     int reach_px = 24;  ///< a feature speaks for its surface so far around: a support corner's cell
-    DepthTolerance same_surface = {0.06, 0.0076};
-    double longest_gap_s = 1.0;  ///< farther ahead nothing is predicted
   };
   Options options;
 
@@ -67,7 +65,7 @@ class MaskPrediction {
              Workspace& workspace) {
     keep_everywhere(width, height, mask);
     const double ahead_s = timestamp_s - timestamp_s_;
-    if (seen_.empty() || !(ahead_s > 0) || !(ahead_s <= options.longest_gap_s)) return;
+    if (seen_.empty() || !(ahead_s > 0) || !(ahead_s <= kLongestGap_s)) return;
     columns_ = (width + kCell_px - 1) / kCell_px;
     rows_ = (height + kCell_px - 1) / kCell_px;
     cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
@@ -91,10 +89,12 @@ class MaskPrediction {
     bool followed;
   };
   static constexpr int kCell_px = 4;
+  static constexpr double kLongestGap_s = 1.0;  // farther ahead nothing is predicted
+  static constexpr DepthTolerance kSameSurface = {0.06, 0.0076};
 
   bool one_surface(float depth_m, float other_m) const noexcept {
     const double apart_m = std::abs(static_cast<double>(other_m - depth_m));
-    return depth_m > 0 && apart_m <= options.same_surface.at(static_cast<double>(depth_m));
+    return depth_m > 0 && apart_m <= kSameSurface.at(static_cast<double>(depth_m));
   }
 
   /// Do most features near `i` on its surface move as well?

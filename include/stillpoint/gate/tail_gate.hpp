@@ -17,7 +17,7 @@
 namespace stillpoint {
 
 /// The scores of standing points have an exponential tail: the share that the filter drops, P, falls by e with every
-/// `decay` nats, P(level) = exp(−(level − s₁) / decay) / 100. Measured with the whole filter, clusters and memory
+/// `kDecay` nats, P(level) = exp(−(level − s₁) / decay) / 100. Measured with the whole filter, clusters and memory
 /// included, on a real recording without a mover (143 frames, 1000 key points): 1.2 % at 1.7, 0.9 % at 2.0, 0.6 % at
 /// 2.3, 0.35 % at 2.8, 0.13 % at 3.3. The default s₁ keeps a margin of a third.
 ///
@@ -29,19 +29,14 @@ class TailGate {
  public:
   struct Options {
     double false_positive_rate = 0.01;  ///< share of standing features that may be dropped, 1e-6 to 0.5
-    double level_of_one_percent = 2.3;  ///< s₁, nats
-    double decay = 0.8;                 ///< nats in which the tail falls by e
-    double gain = 0.01;                 ///< nats that the level sinks in a frame without any excess
-    double most_excess = 2.0;           ///< times the rate that a frame may count; a mover is no noise
-    double most_raised = 3.0;           ///< nats
-    float stood_below = -1.5f;          ///< remembered log-odds of what is known to stand
-    float trusted = 0.95f;              ///< and their trust: nothing near by is suspect
-    std::size_t fewest_known = 50;      ///< of them in a frame; fewer teach nothing
   };
   Options options;
 
+  double gain =
+      0.01;  ///< nats that the level sinks in a frame without any excess, 0 learns nothing; no option in files
+
   Threshold threshold(span<const FeatureScore>, const Regions&, Workspace&) const {
-    return {options.level_of_one_percent - options.decay * std::log(rate() / 0.01) + raised_};
+    return {kLevelOfOnePercent - kDecay * std::log(rate() / 0.01) + raised_};
   }
 
   /// Learns from the host's features that stood until now.
@@ -49,14 +44,14 @@ class TailGate {
   void learn(const Matches& matches, span<const Label> labels) {
     std::size_t known = 0, exceeding = 0;
     for (std::size_t i = 0; i < matches.host_count; ++i) {
-      if (!(matches.recalled_log_odds[i] < options.stood_below) || !(matches.trust[i] > options.trusted)) continue;
+      if (!(matches.recalled_log_odds[i] < kStaticBelow) || !(matches.trust[i] > kTrusted)) continue;
       ++known;
       exceeding += labels[i].log_odds > 0;
     }
-    if (known < options.fewest_known) return;
+    if (known < kFewestStatic) return;
     const double times_the_rate = static_cast<double>(exceeding) / (rate() * static_cast<double>(known));
-    raised_ += options.gain * (std::min(times_the_rate, options.most_excess) - 1.0);
-    raised_ = std::clamp(raised_, 0.0, options.most_raised);
+    raised_ += gain * (std::min(times_the_rate, kMostExcess) - 1.0);
+    raised_ = std::clamp(raised_, 0.0, kMostRaised);
   }
 
   /// How far the level has been raised above the prior's, nats.
@@ -65,6 +60,14 @@ class TailGate {
   void reset() noexcept { raised_ = 0.0; }
 
  private:
+  static constexpr double kLevelOfOnePercent = 2.3;  // s₁, nats
+  static constexpr double kDecay = 0.8;              // nats in which the tail falls by e
+  static constexpr double kMostExcess = 2.0;         // times the rate that a frame may count; a mover is no noise
+  static constexpr double kMostRaised = 3.0;         // nats
+  static constexpr float kStaticBelow = -1.5f;       // remembered log-odds of what is known to be static, nats
+  static constexpr float kTrusted = 0.95f;           // and their trust: nothing nearby is suspect
+  static constexpr std::size_t kFewestStatic = 50;   // of them in a frame; fewer teach nothing
+
   double rate() const noexcept { return std::clamp(options.false_positive_rate, 1e-6, 0.5); }
 
   double raised_ = 0.0;

@@ -27,14 +27,8 @@ namespace stillpoint {
 class CornerTracker {
  public:
   struct Options {
-    int cell_px = 24;               ///< one corner for each cell of this size: 530 cells in 640 × 480
-    float weakest_corner = 600.0f;  ///< least eigenvalue, squared gray levels over 5 × 5 pixels of the half-sized image
-    std::size_t pyramid_levels = 4;  ///< with a reach of 3 px on each: 45 px between two frames
-    float most_dissimilar = 0.3f;    ///< 1 − correlation above which a corner is lost
-    float too_vague = 0.5f;          ///< on a coarse level a fit this bad does not move the start of the next
-    int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the corner's surface
-    float border_px = 8.0f;          ///< nearer to the border than this a match is `near_edge`
-    DepthTolerance same_surface;
+    int cell_px = 24;              ///< one corner for each cell of this size: 530 cells in 640 × 480
+    float most_dissimilar = 0.3f;  ///< 1 − correlation above which a corner is lost
   };
   Options options;
 
@@ -97,6 +91,13 @@ class CornerTracker {
     Vector2f aligned = Vector2f::Zero(), expected = Vector2f::Zero();
   };
 
+  // Least eigenvalue of a corner, squared gray levels over 5 × 5 pixels of the half-sized image.
+  static constexpr float kWeakestCorner = 600.0f;
+  static constexpr std::size_t kPyramidLevels = 4;  // with a reach of 3 px on each: 45 px between two frames
+  static constexpr float kTooVague = 0.5f;   // on a coarse level a fit this bad does not move the start of the next
+  static constexpr int kFewestPixels = 25;   // of a patch's 64 that must lie on the corner's surface
+  static constexpr float kBorder_px = 8.0f;  // nearer to the border than this a match is `near_edge`
+  static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
   static constexpr float kOtherStart_px = 8.0f;  // a nearer second start finds what the first one finds
 
@@ -108,10 +109,10 @@ class CornerTracker {
   void prepare(const FrameView& reference, const FrameView& current, float scale) {
     if (current_time_s_ == current.timestamp_s) return;
     if (!(reference_time_s_ == reference.timestamp_s)) {
-      reference_.build(reference.gray, options.pyramid_levels);
+      reference_.build(reference.gray, kPyramidLevels);
       coarse_.add_frame(reference_);
     }
-    current_.build(current.gray, options.pyramid_levels);
+    current_.build(current.gray, kPyramidLevels);
     coarse_.add_frame(current_);
     find_corners(scale);
     current_time_s_ = current.timestamp_s;
@@ -124,7 +125,7 @@ class CornerTracker {
     if (current_.size() > kLevel) {
       workspace_.rewind();
       const int cell_px = std::max(kSmallestCell_px, rounded(0.5f * scale * static_cast<float>(options.cell_px)));
-      grid_corners(current_[kLevel], cell_px, options.weakest_corner, corners_, workspace_);
+      grid_corners(current_[kLevel], cell_px, kWeakestCorner, corners_, workspace_);
       for (Vector2f& corner : corners_) corner = rounded(Pyramid::from_level(corner, kLevel));
     }
     start_.assign(corners_.size(), Start{});
@@ -140,19 +141,19 @@ class CornerTracker {
     PatchFit fit;
     for (std::size_t level = std::min(levels, current_.size()); level-- > 0;) {
       const Vector2f cut = rounded(Pyramid::to_level(pixel, level));
-      const PatchMask mask = level == 0 ? PatchMask(depth, pixel, options.same_surface) : PatchMask();
+      const PatchMask mask = level == 0 ? PatchMask(depth, pixel, kSameSurface) : PatchMask();
       fit = PatchFit();
       if (!cut_patch(current_[level], cut, mask, patch)) continue;
       const float scale = static_cast<float>(std::size_t{1} << level);
       fit = find_patch(patch, reference_[level], cut + displacement / scale, PatchSearch{});
-      if (fit.inside && (level == 0 || fit.dissimilarity < options.too_vague)) displacement += fit.offset * scale;
+      if (fit.inside && (level == 0 || fit.dissimilarity < kTooVague)) displacement += fit.offset * scale;
     }
-    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < options.fewest_pixels) return;
+    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < kFewestPixels) return;
     const Vector2f found = pixel + displacement;
     const float distance = border_distance_px(reference_[0], found);
     if (!(distance >= 0.0f)) return;
     matches.reference.pixel[i] = found;
-    matches.state[i] = distance < options.border_px ? MatchState::near_edge : MatchState::matched;
+    matches.state[i] = distance < kBorder_px ? MatchState::near_edge : MatchState::matched;
   }
 
   Pyramid reference_, current_;

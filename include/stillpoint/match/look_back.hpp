@@ -32,20 +32,10 @@ namespace stillpoint {
 class LookBack {
  public:
   struct Options {
-    double slowest_m_s = 0.03;       ///< a mover of this speed should be seen against the oldest frame …
-    double detectable_sigmas = 3.0;  ///< … by a step of this many standard deviations
-    double pixel_sigma = 0.7;        ///< of a found patch, pixels
-    double longest_s = 0.5;          ///< but no frame is older than this, unless frames are few
-    int fewest_pixels = 25;          ///< of a patch's 64 that must lie on the feature's surface
-    DepthTolerance same_surface;
-    double occlusion_m = 0.15;       ///< a surface this much nearer hides the point …
-    double occlusion_sigmas = 4.0;   ///< … and this many standard deviations of both depths more
-    int occluder_reach_px = 8;       ///< what is nearer within this reach covers a part of the patch
-    int surrounding_px = 24;         ///< how far a feature without a depth looks for the surfaces beside it
-    double supposed_spread = 0.1;    ///< standard deviation of its inverse depth, of the supposed one
-    float clearly_alike = 0.12f;     ///< a feature no more unlike in the last and in the oldest frame …
-    float clearly_there_px = 0.7f;   ///< … and no farther from its place is not looked for in those between
-    PatchSearch search = {3, 0.2f};  ///< a standing point is not three pixels away: more steps find look-alikes
+    double slowest_m_s = 0.03;      ///< a mover of this speed should be seen against the oldest frame
+    double pixel_sigma = 0.7;       ///< of a found patch, pixels
+    double longest_s = 0.5;         ///< but no frame is older than this, unless frames are few
+    double occlusion_sigmas = 4.0;  ///< a surface nearer by so many standard deviations of both depths hides the point
   };
   Options options;
   GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
@@ -91,9 +81,20 @@ class LookBack {
   }
 
  private:
+  static constexpr double kDetectableSigmas = 3.0;  // of the step that the slowest mover makes since the oldest frame
+  static constexpr int kFewestPixels = 25;          // of a patch's 64 that must lie on the feature's surface
+  static constexpr DepthTolerance kSameSurface{};
+  static constexpr double kOcclusion_m = 0.15;    // beside `occlusion_sigmas`: what hides a point is nearer by this
+  static constexpr int kOccluderReach_px = 8;     // what is nearer within this reach covers a part of the patch
+  static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
+  static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one
+  static constexpr float kClearlyAlike = 0.12f;   // a feature no more unlike in the last and in the oldest frame …
+  static constexpr float kClearlyThere_px = 0.7f;  // … and no farther from its place is not looked for in those between
+  static constexpr int kSearchIterations = 3;      // a static point is not three pixels away: more find look-alikes
+  static constexpr float kSearchPrecision_px = 0.2f;
   static constexpr std::size_t kLooks = 3;            // older frames
   static constexpr double kLongestAtLowRate_s = 1.0;  // of the oldest, where three are not to be had within `longest_s`
-  static constexpr double kBridgedSpread = 0.03;  // as `supposed_spread`, where all that is beside it is one surface
+  static constexpr double kBridgedSpread = 0.03;  // as `kSupposedSpread`, where all that is beside it is one surface
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
   static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
 
@@ -104,8 +105,7 @@ class LookBack {
   std::array<std::size_t, 3> choose_ages(const FrameHistory& history, const FrameView& current, const Camera& camera,
                                          const Matches& matches, Workspace& workspace) const {
     const double lateral_sigma_m = options.pixel_sigma * median_depth_m(matches.current, workspace) / camera.fx();
-    const double wanted_s =
-        std::min(options.detectable_sigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
+    const double wanted_s = std::min(kDetectableSigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
     const auto elapsed_s = [&](std::size_t age) { return current.timestamp_s - history.back(age).timestamp_s; };
     std::size_t oldest = 1;
     while (oldest < history.size() &&
@@ -150,22 +150,22 @@ class LookBack {
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Matches& matches) const {
     const SurroundingDepth beside =
-        surrounding_depth(current, matches.current.pixel[i], scaled_px(options.surrounding_px, camera), guard);
+        surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard);
     if (!(beside.farthest_m > 0)) return;
     std::array<double, 2 + kLooks> candidates{beside.farthest_m, beside.nearest_m};
-    std::size_t count = beside.farthest_m - beside.nearest_m < options.same_surface.at(beside.nearest_m) ? 1 : 2;
+    std::size_t count = beside.farthest_m - beside.nearest_m < kSameSurface.at(beside.nearest_m) ? 1 : 2;
     const std::size_t supposed = count;
     for (const OlderFrame& older : std::as_const(matches.sightings).frames()) {
       const double borrowed_m =
           borrowed_depth_m(matches.current.undistorted[i], beside.farthest_m, history.back(older.age).view(),
-                           older.reference_from_current, camera, guard, options.same_surface);
+                           older.reference_from_current, camera, guard, kSameSurface);
       const bool is_known =
           count > supposed && std::abs(borrowed_m - candidates[count - 1]) < kBorrowedSigmas * noise.sigma(borrowed_m);
       if (borrowed_m > 0 && !is_known && count < candidates.size()) candidates[count++] = borrowed_m;
     }
     const auto spread_of = [&](std::size_t c) {
       const double depth_m = candidates[c];
-      const double supposed_spread = supposed > 1 ? options.supposed_spread : kBridgedSpread;
+      const double supposed_spread = supposed > 1 ? kSupposedSpread : kBridgedSpread;
       return c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
     };
     std::size_t best = 0, last = count;
@@ -191,9 +191,8 @@ class LookBack {
     sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
     Patch patch;
     const Vector2f centre = rounded(matches.current.pixel[i]);
-    const bool textured =
-        cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, options.same_surface), patch) &&
-        patch.count >= options.fewest_pixels;
+    const bool textured = cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, kSameSurface), patch) &&
+                          patch.count >= kFewestPixels;
     const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
     const auto look_at = [&](OlderFrame& older) {
       Sighting& sighting = older.of_feature[i];
@@ -219,8 +218,8 @@ class LookBack {
   bool clearly_stands(std::size_t i, span<const OlderFrame> frames) const noexcept {
     const auto agrees = [&](const OlderFrame& older) {
       const Sighting& sighting = older.of_feature[i];
-      return sighting.state == SightingState::seen && sighting.dissimilarity < options.clearly_alike &&
-             sighting.offset_px < options.clearly_there_px;
+      return sighting.state == SightingState::seen && sighting.dissimilarity < kClearlyAlike &&
+             sighting.offset_px < kClearlyThere_px;
     };
     return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
   }
@@ -235,7 +234,7 @@ class LookBack {
     if (!(older.gray.border_distance_px(pixel.x(), pixel.y()) >= 1.0f)) return sighting;
     const double sigma_m = noise.sigma(there.z());
     const double margin_m =
-        options.occlusion_m + options.occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
+        kOcclusion_m + options.occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
     const double measured_m = guard.at(older, pixel);
     if (measured_m > 0) {
       sighting.depth_m = static_cast<float>(measured_m);
@@ -243,9 +242,8 @@ class LookBack {
       sighting.state = measured_m < there.z() - margin_m ? SightingState::occluded : SightingState::seen;
     }
     if (patch == nullptr || sighting.state == SightingState::occluded) return sighting;
-    if (beside_occluder(older, pixel, there.z() - margin_m, scaled_px(options.occluder_reach_px, camera)))
-      return sighting;
-    PatchSearch search = options.search;
+    if (beside_occluder(older, pixel, there.z() - margin_m, scaled_px(kOccluderReach_px, camera))) return sighting;
+    PatchSearch search{kSearchIterations, kSearchPrecision_px};
     search.warp = view_warp(camera, point, there, reference_from_current);
     const PatchFit fit = find_patch(*patch, older.gray, pixel, search);
     if (!fit.inside) return sighting;

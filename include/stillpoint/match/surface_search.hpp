@@ -19,11 +19,8 @@ namespace stillpoint {
 
 /// A grid of cells over the image.
 struct SurfaceSearch {
-  int step_px = 24;              ///< spacing of the cells
-  int reach_px = 5;              ///< from a cell's centre to the pixels that span its normal
-  double steepest_cosine = 0.2;  ///< of a surface to the line of sight; steeper ones are left out
-  GuardedDepth guard;
-  DepthTolerance smooth;  ///< a surface may bend by so much within its reach
+  int step_px = 24;    ///< spacing of the cells
+  GuardedDepth guard;  ///< no option in files
 
   /// The cells of the current frame's grid where depth is smooth.
   template <class Camera, class Noise>
@@ -35,7 +32,7 @@ struct SurfaceSearch {
     };
     surfaces.clear();
     const int step = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
-    const int reach = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(reach_px)));
+    const int reach = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(kReach_px)));
     for (int v = step / 2; v < current.gray.height; v += step) {
       for (int u = step / 2; u < current.gray.width; u += step) {
         const Vector3d centre = point_at(u, v);
@@ -45,9 +42,9 @@ struct SurfaceSearch {
         if (!(left.z() > 0 && right.z() > 0 && above.z() > 0 && below.z() > 0)) continue;
         const double bend_m =
             std::max(std::abs(left.z() + right.z() - 2 * centre.z()), std::abs(above.z() + below.z() - 2 * centre.z()));
-        if (bend_m > smooth.at(centre.z())) continue;
+        if (bend_m > kSmooth.at(centre.z())) continue;
         const Vector3d normal = (right - left).cross(below - above).normalized();
-        if (!(std::abs(normal.dot(centre.normalized())) > steepest_cosine)) continue;
+        if (!(std::abs(normal.dot(centre.normalized())) > kSteepestCosine)) continue;
         const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
         surfaces.push_back({pixel, centre, normal, noise.sigma(centre.z()), 1.0f});
       }
@@ -67,6 +64,11 @@ struct SurfaceSearch {
   }
 
   static constexpr double kNearest_m = 0.1;
+
+ private:
+  static constexpr int kReach_px = 5;             // from a cell's centre to the pixels that span its normal
+  static constexpr double kSteepestCosine = 0.2;  // of a surface to the line of sight; steeper ones are left out
+  static constexpr DepthTolerance kSmooth{};      // a surface may bend by so much within its reach
 };
 
 }  // namespace stillpoint

@@ -29,18 +29,8 @@ class EvidenceMemory {
  public:
   struct Options {
     double log_odds_decay_s = 0.0935;  ///< time in which log-odds fall by e
-    float most_log_odds = 3.0f;        ///< log-odds are held within ± this
-    float drop_above = 0.0f;           ///< a feature is dynamic above this …
-    float keep_below = 0.0f;           ///< … and stands still again below this, if it was dynamic before
-    float suspect_above = 2.0f;        ///< log-odds that make a feature suspect
     double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
-    double suspicion_decay_s = 4.0;
-    float restlessness = 0.6f;   ///< share of the lower bound that full suspicion takes away: it will move again
-    float least_trust = 0.01f;   ///< say of a feature of full suspicion
-    float feature_px = 15.0f;    ///< how far a feature may have moved and still be recognised
-    float neighbour_px = 25.0f;  ///< neighbours that hand suspicion on
-    float minority = 0.25f;      ///< share of suspect neighbours below which none is handed on; above 1 − this, all
-    DepthTolerance same_surface = {0.06, 0.0076};
+    double suspicion_decay_s = 4.0;    ///< time in which suspicion falls by e
   };
   Options options;
 
@@ -50,11 +40,11 @@ class EvidenceMemory {
     recalled_of_cell_.assign(matches.sightings.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
-    const float neighbour_px = matches.pixel_scale * options.neighbour_px;
-    const float feature_px = matches.pixel_scale * options.feature_px;
-    const NeighbourSteps steps(matches, neighbour_px, options.same_surface, workspace);
+    const float neighbour_px = matches.pixel_scale * kNeighbour_px;
+    const float feature_px = matches.pixel_scale * kFeature_px;
+    const NeighbourSteps steps(matches, neighbour_px, kSameSurface, workspace);
     suspicion_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.suspicion_decay_s));
-    const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px, options.same_surface}, workspace);
+    const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px, kSameSurface}, workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
       const double depth_m = matches.current.depth_m[i];
@@ -84,12 +74,12 @@ class EvidenceMemory {
       const Memory before = recalled_[i];
       Label& label = labels[i];
       const float now = label.log_odds;
-      const float least = -options.most_log_odds * (1.0f - options.restlessness * before.suspicion);
-      label.log_odds = std::clamp(persistence * before.log_odds + now, least, options.most_log_odds);
+      const float least = -kMostLogOdds * (1.0f - kRestlessness * before.suspicion);
+      label.log_odds = std::clamp(persistence * before.log_odds + now, least, kMostLogOdds);
       label.trust = matches.trust[i];
-      decide(label, now, before.log_odds > options.drop_above);
+      decide(label, now);
       float suspicion = before.suspicion;
-      if (label.log_odds > options.suspect_above) suspicion += suspicion_gain * (1.0f - before.suspicion);
+      if (label.log_odds > kSuspectAbove) suspicion += suspicion_gain * (1.0f - before.suspicion);
       remember(matches.current.pixel[i], matches.current.depth_m[i], {label.log_odds, suspicion}, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
@@ -106,6 +96,18 @@ class EvidenceMemory {
   }
 
  private:
+  static constexpr float kMostLogOdds = 3.0f;   // log-odds are held within ± this, nats
+  static constexpr float kDropAbove = 0.0f;     // nats: even odds; the gate's rate sets how much evidence that takes
+  static constexpr float kSuspectAbove = 2.0f;  // log-odds that make a feature suspect, nats
+  static constexpr float kRestlessness =
+      0.6f;  // share of the lower bound that full suspicion takes away: it may restart
+  static constexpr float kLeastTrust = 0.01f;    // say of a feature of full suspicion
+  static constexpr float kFeature_px = 15.0f;    // how far a feature may have moved and still be recognised
+  static constexpr float kNeighbour_px = 25.0f;  // neighbours that hand suspicion on
+  static constexpr float kMinority =
+      0.25f;  // share of suspect neighbours below which none is handed on; above 1 − this, all
+  static constexpr DepthTolerance kSameSurface = {0.06, 0.0076};
+
   struct Memory {
     float log_odds = 0;
     float suspicion = 0;  ///< 0 to 1
@@ -119,21 +121,21 @@ class EvidenceMemory {
   /// What two views of seconds ago saw in its place, and none saw through, has stood.
   static bool settled(std::uint8_t was_there, float trust) noexcept { return was_there >= 2 && trust >= 1.0f; }
 
-  float trust(float suspicion) const noexcept { return 1.0f - (1.0f - options.least_trust) * suspicion; }
+  static float trust(float suspicion) noexcept { return 1.0f - (1.0f - kLeastTrust) * suspicion; }
 
   Memory look_up(const RememberedPoints& points, const Vector2f& pixel, double depth_m) const {
     const RememberedPoints::Sums near = points.around(pixel, static_cast<float>(depth_m));
     Memory memory;
     if (near.feature_weight > 0) memory.log_odds = near.log_odds / near.feature_weight;
     if (near.votes > 0) {
-      const float majority = (near.suspicion / near.votes - options.minority) / (1 - 2 * options.minority);
+      const float majority = (near.suspicion / near.votes - kMinority) / (1 - 2 * kMinority);
       memory.suspicion = suspicion_left_ * std::clamp(majority, 0.0f, 1.0f);
     }
     return memory;
   }
 
-  void decide(Label& label, float now, bool was_dynamic) const noexcept {
-    const bool dynamic = label.log_odds > (was_dynamic ? options.keep_below : options.drop_above);
+  static void decide(Label& label, float now) noexcept {
+    const bool dynamic = label.log_odds > kDropAbove;
     label.keep = !dynamic;
     label.probability = 1.0f / (1.0f + std::exp(-label.log_odds));
     const bool knows = label.reason == Reason::consistent || label.reason == Reason::neighbours;

@@ -18,10 +18,6 @@ namespace stillpoint {
 struct Inertia {
   double acceleration_m_s2 = 3.0;            ///< standard deviation along each axis, of a camera held by hand; 0: none
   double angular_acceleration_rad_s2 = 3.0;  ///< the same about each axis
-  /// Constraints that say no more than one independent one would: neighbours share errors of depth, of blur, of a
-  /// rolling shutter. The median of error² over variance on recordings; 1 in synthetic scenes.
-  double correlated = 12.0;
-  double degrees_of_freedom = 10.0;  ///< of Student's t: jolts are rare and then large
 
   bool applies(const MotionPrior& prior) const noexcept {
     return prior.predicted.has_value() && acceleration_m_s2 > 0 && angular_acceleration_rad_s2 > 0;
@@ -48,12 +44,17 @@ struct Inertia {
   }
 
  private:
+  // Constraints that say no more than one independent one would: neighbours share errors of depth, of blur, of a
+  // rolling shutter. The median of error² over variance on recordings; 1 in synthetic scenes.
+  static constexpr double kCorrelated = 12.0;
+  static constexpr double kDegreesOfFreedom = 10.0;  // of Student's t: jolts are rare and then large
+
   /// Of Student's t, for what lies between the two: e² = xᵀ (found⁻¹ + velocity⁻¹)⁻¹ x, by the matrix inversion lemma.
   double weight(const Vector6d& expected, const Matrix6d& velocity, const Matrix6d& found) const {
     const Vector6d pull = velocity * expected;
     const Vector6d step = Cholesky<6>(found + velocity).solve(pull);
-    const double squared = pull.dot(expected - step) / correlated;
-    return std::min(1.0, (degrees_of_freedom + 6.0) / (degrees_of_freedom + squared));
+    const double squared = pull.dot(expected - step) / kCorrelated;
+    return std::min(1.0, (kDegreesOfFreedom + 6.0) / (kDegreesOfFreedom + squared));
   }
 
   /// Of the predicted motion, in the same measure as that of correlated constraints.
@@ -61,8 +62,8 @@ struct Inertia {
     const double angle = angular_acceleration_rad_s2 * elapsed_s * elapsed_s;
     const double length_m = acceleration_m_s2 * elapsed_s * elapsed_s;
     Vector6d diagonal;
-    diagonal << Vector3d::Constant(correlated / (angle * angle)),
-        Vector3d::Constant(correlated / (length_m * length_m));
+    diagonal << Vector3d::Constant(kCorrelated / (angle * angle)),
+        Vector3d::Constant(kCorrelated / (length_m * length_m));
     return diagonal.asDiagonal();
   }
 };

@@ -16,10 +16,7 @@ namespace stillpoint {
 /// camera leaves nothing at rest but what is fixed to it, and that lies before the world, not behind. Without this, who
 /// stands close before the lens and sways takes the pose along.
 struct StandingCamera {
-  double rest_px = 0.3;          ///< a corner that moved less is at rest
-  double begins_share = 0.9;     ///< of the weight of all corners that is at rest when a camera comes to stand
-  double majority_share = 0.5;   ///< while it stands, so much is enough …
-  double continues_share = 0.1;  ///< … or so much, if it lies behind the rest
+  bool is_enabled = true;  ///< false: no camera is taken for stationary; no option in files
 
   /// Between the last frame and this one.
   bool since_last_frame(const Matches& matches, bool stood) const {
@@ -33,7 +30,7 @@ struct StandingCamera {
 
   /// @param i  a match
   bool at_rest(const Matches& matches, std::size_t i) const {
-    return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm() < rest_px;
+    return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm() < kRest_px;
   }
 
   /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: what creeps
@@ -48,12 +45,17 @@ struct StandingCamera {
       const Sighting& sighting = oldest->of_feature[i];
       if (sighting.state != SightingState::seen || !(sighting.dissimilarity < 2.0f)) continue;
       const double moved_px = (matches.current.undistorted[i] - sighting.found.cast<double>()).norm();
-      census.count(moved_px < rest_px, matches, i);
+      census.count(moved_px < kRest_px, matches, i);
     }
     return census.empty() || stands(census, true);
   }
 
  private:
+  static constexpr double kRest_px = 0.3;         // a corner that moved less is at rest
+  static constexpr double kBeginsShare = 0.9;     // of the weight of all corners that is at rest when a camera stops
+  static constexpr double kMajorityShare = 0.5;   // while it is stationary, so much is enough …
+  static constexpr double kContinuesShare = 0.1;  // … or so much, if it lies behind the rest
+
   struct Group {
     double weight = 0;
     double with_depth = 0, inverse_depth = 0;  ///< weight of those with a depth; Σ weight / depth
@@ -75,12 +77,12 @@ struct StandingCamera {
 
   bool stands(const Census& census, bool stood) const {
     const double all = census.resting.weight + census.moving.weight;
-    if (!(all > 0)) return false;
+    if (!is_enabled || !(all > 0)) return false;
     const double share = census.resting.weight / all;
-    if (share > (stood ? majority_share : begins_share)) return true;
+    if (share > (stood ? kMajorityShare : kBeginsShare)) return true;
     const bool behind = census.resting.inverse_depth * census.moving.with_depth <
                         census.moving.inverse_depth * census.resting.with_depth;
-    return stood && share > continues_share && behind;
+    return stood && share > kContinuesShare && behind;
   }
 };
 

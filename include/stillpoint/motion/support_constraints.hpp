@@ -20,14 +20,13 @@ namespace stillpoint {
 
 /// Makes constraints of matches. Support is by area: one corner a grid cell, and a grid of surface cells.
 struct SupportConstraints {
-  double pixel_sigma = 1.0;       ///< of a followed corner, pixels
-  double depth_sigmas = 1.5;      ///< measured depth noise over the model's
-  double depth_floor_m = 0.003;   ///< and what is left when the model's is nothing
-  double depthless_spread = 0.3;  ///< standard deviation of an unknown inverse depth, of the median one
-  double dynamic_trust = 0.15;    ///< weight of what lies in a dynamic region
-  double movable_trust = 0.6;     ///< and in a movable one
-  double surface_weight = 0.8;    ///< of a surface cell: depth errors of neighbours are not independent
-  float most_dissimilar = 0.25f;  ///< a sighting that is less alike says nothing of the motion
+  double pixel_sigma = 1.0;     ///< of a followed corner, pixels
+  double depth_sigmas = 1.5;    ///< measured depth noise over the model's
+  double dynamic_trust = 0.15;  ///< weight of what lies in a dynamic region
+  double movable_trust = 0.6;   ///< and in a movable one
+
+  // No option in files.
+  double surface_weight = 0.8;  ///< of a surface cell: depth errors of neighbours are not independent
 
   /// The matches with the reference frame. `features[k]` is the feature of constraint k.
   template <class Camera>
@@ -59,7 +58,7 @@ struct SupportConstraints {
     for (std::size_t f = 0; f < frames.size(); ++f) {
       for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
         const Sighting& sighting = frames[f].of_feature[i];
-        if (sighting.state != SightingState::seen || !(sighting.dissimilarity < most_dissimilar)) continue;
+        if (sighting.state != SightingState::seen || !(sighting.dissimilarity < kMostDissimilar)) continue;
         points[count++] =
             at_depth(matches, regions, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),
                      static_cast<double>(sighting.depth_sigma_m), f);
@@ -84,7 +83,7 @@ struct SupportConstraints {
         plane.target = sighting.target;
         // Depth noise points along the optical axis: the plane sees its share along the normal.
         const double sigma_m =
-            depth_sigma_m(cell.depth_sigma_m, sighting.depth_sigma_m) * std::abs(cell.normal.z()) + depth_floor_m;
+            depth_sigma_m(cell.depth_sigma_m, sighting.depth_sigma_m) * std::abs(cell.normal.z()) + kDepthFloor_m;
         plane.slope = frames[f].reference_from_current.linear() * cell.normal / sigma_m;
         plane.trusted_weight = surface_weight;
         plane.weight = surface_weight * static_cast<double>(cell.trust);
@@ -95,6 +94,10 @@ struct SupportConstraints {
   }
 
  private:
+  static constexpr double kDepthFloor_m = 0.003;   // what is left when the noise model's is nothing
+  static constexpr double kDepthlessSpread = 0.3;  // standard deviation of an unknown inverse depth, of the median one
+  static constexpr float kMostDissimilar = 0.25f;  // an observation that is less alike says nothing of the motion
+
   double depth_sigma_m(double here_m, double there_m) const noexcept {
     return depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m);
   }
@@ -116,7 +119,7 @@ struct SupportConstraints {
     point.pixel_sigma = pixel_sigma;
     point.depth_m = seen_depth_m;
     if (seen_depth_m > 0)
-      point.depth_slope = 1.0 / (depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + depth_floor_m);
+      point.depth_slope = 1.0 / (depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + kDepthFloor_m);
     set_weight(point, matches, regions, i);
     point.frame = frame;
     return point;
@@ -130,7 +133,7 @@ struct SupportConstraints {
       return at_depth(matches, regions, i, seen.undistorted[i], seen.depth_m[i], seen.depth_sigma_m[i], 0);
     PointConstraint point;
     point.point = camera.back_project(matches.current.undistorted[i], typical_m);
-    point.inverse_depth_sigma = depthless_spread / typical_m;
+    point.inverse_depth_sigma = kDepthlessSpread / typical_m;
     point.pixel = seen.undistorted[i];
     point.pixel_sigma = pixel_sigma;
     set_weight(point, matches, regions, i);

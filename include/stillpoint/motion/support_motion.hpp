@@ -36,23 +36,18 @@ namespace stillpoint {
 class SupportMotion {
  public:
   struct Options {
-    double inlier_sigmas = 4.0;     ///< beyond it a match supports a hypothesis no more
-    std::size_t max_trials = 60;    ///< samples of three points: half static are missed with (1 − 0.5³)⁶⁰ < 4e-4
-    double confidence = 0.9996;     ///< of not missing what explains more than the past: often needs fewer
-    double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
-    double same_motion_px = 1.0;    ///< hypotheses that move the matches less apart on average are one
-    double least_support = 0.08;    ///< share of all weight that the motion must explain
-    double undisputed_loss = 48.0;  ///< suspects count in full while they cost the trusted no more squared sigmas
-    double creep_gain = 60.0;       ///< squared sigmas by which a motion must beat standing still
-    double least_pixel_sigma = 0.1;  ///< of what is measured; the most is `constraints.pixel_sigma`
-    double most_depth_noise = 4.0;   ///< of what is measured, over what is assumed; the least is 1
-    std::size_t fewest_matches = 6;
+    double inlier_sigmas = 4.0;   ///< beyond it a match supports a hypothesis no more
+    std::size_t max_trials = 60;  ///< samples of three points: half static are missed with (1 − 0.5³)⁶⁰ < 4e-4
     std::uint64_t seed = Random::kDefaultSeed;
   };
   Options options;
   SupportConstraints constraints;  ///< noise and weights of what supports a motion
   StandingCamera standing;         ///< when has the camera no motion at all?
   Inertia inertia;                 ///< what its velocity knows
+
+  // No options in files.
+  double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
+  bool measures_noise = true;     ///< of pixels and depths in each frame; false: it is as assumed
 
   /// @return status ok, consensus_inverted, no_depth, too_few_matches or no_consensus.
   template <class Camera>
@@ -64,7 +59,7 @@ class SupportMotion {
     Motion motion;
     motion.candidates = static_cast<int>(points.size());
     motion.status = Status::too_few_matches;
-    if (points.size() < options.fewest_matches) return motion;
+    if (points.size() < kFewestMatches) return motion;
 
     const span<const OlderFrame> frames = matches.sightings.frames();
     auto problem =
@@ -78,14 +73,14 @@ class SupportMotion {
     const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
     const bool differ =
         sampled.support > past.support &&
-        problem.distance_px(sampled.reference_from_current, past.reference_from_current) > options.same_motion_px;
+        problem.distance_px(sampled.reference_from_current, past.reference_from_current) > kSameMotion_px;
     const bool knows_past =
         prior.current_from_reference.has_value();  // else it began with no motion, for want of better
     // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
-    const bool inverted = differ && knows_past &&
-                          problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
-                              options.past_preference * problem.exclusive_support(sampled.reference_from_current,
-                                                                                  past.reference_from_current);
+    const bool inverted =
+        differ && knows_past &&
+        problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
+            past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
     motion.standing = standing.since_last_frame(matches, prior.standing) &&
                       nothing_creeps(points, features, matches, camera, workspace);
@@ -93,7 +88,7 @@ class SupportMotion {
 
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
     const bool explained =
-        problem.point_support(chosen.reference_from_current) > options.least_support * problem.total_weight();
+        problem.point_support(chosen.reference_from_current) > kLeastSupport * problem.total_weight();
     if (!explained || !any_depth(matches)) return motion;
     motion.status = inverted ? Status::consensus_inverted : Status::ok;
     motion.inliers = problem.inliers(chosen.reference_from_current);
@@ -115,7 +110,7 @@ class SupportMotion {
     motion.standing = false;
     const span<OlderFrame> frames = matches.sightings.frames();
     const span<PointConstraint> points = constraints.from_sightings(matches, regions, camera, workspace);
-    if (frames.empty() || points.size() < options.fewest_matches * frames.size()) return;
+    if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
     auto problem = problem_of(points, frames, matches, camera, workspace);
     calibrate(frames[0].reference_from_current, problem, workspace);
     Hypothesis trusted;
@@ -136,6 +131,17 @@ class SupportMotion {
   }
 
  private:
+  static constexpr double kConfidence = 0.9996;  // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;  // hypotheses that move the matches less apart on average are one
+  static constexpr double kLeastSupport = 0.08;  // share of all weight that the motion must explain
+  static constexpr double kUndisputedLoss =
+      48.0;                                   // squared sigmas that suspects may cost the trusted and count in full
+  static constexpr double kCreepGain = 60.0;  // squared sigmas by which a motion must beat standing still
+  static constexpr double kLeastPixelSigma =
+      0.1;  // of the measured noise, pixels; the most is `constraints.pixel_sigma`
+  static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
+  static constexpr std::size_t kFewestMatches = 6;  // twice a minimal sample
+
   static constexpr std::array<double, 3> kFarCutoffs{12.0, 6.0, 4.0};  // from a pose that is a guess
   static constexpr std::array<double, 2> kAgainCutoffs{12.0, 4.0};     // from one that was polished already
   static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
@@ -170,7 +176,7 @@ class SupportMotion {
     SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
     calibrate(Pose::Identity(), problem, workspace);
     const Hypothesis crept = polish(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
-    return problem.squared_residuals_of(crept.support - problem.support(Pose::Identity())) < options.creep_gain;
+    return problem.squared_residuals_of(crept.support - problem.support(Pose::Identity())) < kCreepGain;
   }
 
   /// No motion, as well known as the support allows.
@@ -193,7 +199,7 @@ class SupportMotion {
     problem.swap_trust();
     if (all.information.isZero()) return trusted;
     all.support = problem.support(all.reference_from_current);
-    return problem.squared_residuals_of(trusted.support - all.support) < options.undisputed_loss ? all : trusted;
+    return problem.squared_residuals_of(trusted.support - all.support) < kUndisputedLoss ? all : trusted;
   }
 
   static bool any_depth(const Matches& matches) noexcept {
@@ -213,8 +219,9 @@ class SupportMotion {
   template <class Camera>
   SupportNoise calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem,
                          Workspace& workspace) const {
-    return problem.calibrate(reference_from_current, {options.least_pixel_sigma, 1.0},
-                             {constraints.pixel_sigma, options.most_depth_noise}, workspace);
+    const double most_sigma = constraints.pixel_sigma;
+    return problem.calibrate(reference_from_current, {measures_noise ? kLeastPixelSigma : most_sigma, 1.0},
+                             {most_sigma, measures_noise ? kMostDepthNoise : 1.0}, workspace);
   }
 
   /// The best motion of three points, polished; no support where none explains more points than `past`.
@@ -230,8 +237,7 @@ class SupportMotion {
     if (count < 3) return {};
     double to_beat = problem.point_support(past.reference_from_current);
     // What explains more than the past does has at least its share of inliers.
-    const std::size_t trials =
-        required_trials(to_beat / problem.total_weight(), 3, options.confidence, options.max_trials);
+    const std::size_t trials = required_trials(to_beat / problem.total_weight(), 3, kConfidence, options.max_trials);
     Random random(options.seed);
     std::optional<Pose> best;
     for (std::size_t trial = 0; trial < trials; ++trial) {

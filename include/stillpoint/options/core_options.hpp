@@ -8,9 +8,7 @@
 #include <variant>
 
 #include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame_check.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/mask_prediction.hpp"
 
 namespace stillpoint {
@@ -43,23 +41,8 @@ void each_option(AnyDepthNoise& noise, Visit& visit) {
 }
 
 template <class Visit>
-void each_option(GuardedDepth& stage, Visit& visit) {
-  visit("fewest_neighbours", stage.options.fewest_neighbours);
-  visit("jump_m", stage.options.jump_m);
-  visit("jump_per_square_m", stage.options.jump_per_square_m);
-}
-
-template <class Visit>
-void each_option(DepthTolerance& tolerance, Visit& visit) {
-  visit("constant_m", tolerance.constant_m);
-  visit("per_square_m", tolerance.per_square_m);
-}
-
-template <class Visit>
 void each_option(MaskPrediction& stage, Visit& visit) {
   visit("reach_px", stage.options.reach_px);
-  visit("same_surface", stage.options.same_surface);
-  visit("longest_gap_s", stage.options.longest_gap_s);
 }
 
 }  // namespace stillpoint

@@ -13,13 +13,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/atomic_file.hpp"
 #include "stillpoint/io/yaml_file.hpp"
+#include "stillpoint/options/replaced_options.hpp"
 #include "stillpoint/options/stage_options.hpp"
 
 namespace stillpoint {
@@ -58,9 +61,11 @@ class OptionWriter : public LooksAtOptions<OptionWriter> {
 /// Reads the options of a map. Options that are not there keep their values; one that no stage has is an error.
 class OptionReader {
  public:
-  /// @param assigns  false: the map is checked and nothing is changed
-  OptionReader(const YamlFile& file, const cv::FileNode& node, std::string path, bool assigns)
-      : file_(file), node_(node), path_(std::move(path)), assigns_(assigns) {}
+  /// @param assigns   false: the map is checked and nothing is changed
+  /// @param replaced  options of the map that earlier versions had are appended, a line each
+  OptionReader(const YamlFile& file, const cv::FileNode& node, std::string path, bool assigns,
+               std::vector<std::string>& replaced)
+      : file_(file), node_(node), path_(std::move(path)), assigns_(assigns), replaced_(replaced) {}
 
   template <class T>
   void operator()(const char* name, T& value) {
@@ -93,8 +98,8 @@ class OptionReader {
     file_.fail(path_ + name, entry.isString() ? "is '" + found + "'" : "is not a word", list);
   }
 
-  /// @throws Error if the map holds what was not asked for.
-  void require_all_known() const {
+  /// @throws Error if the map holds what was not asked for and no earlier version had.
+  void require_all_known() {
     for (const cv::FileNode entry : node_) {
       std::string list;
       bool is_known = false;
@@ -102,11 +107,24 @@ class OptionReader {
         is_known = is_known || name == entry.name();
         list += (list.empty() ? "" : ", ") + name;
       }
-      if (!is_known) file_.fail(path_ + entry.name(), "is unknown", list.empty() ? "nothing there" : "one of " + list);
+      if (!is_known && !collect_replaced(path_ + entry.name(), entry))
+        file_.fail(path_ + entry.name(), "is unknown", list.empty() ? "nothing there" : "one of " + list);
     }
   }
 
  private:
+  /// @return false if an option in there was never one
+  bool collect_replaced(const std::string& name, const cv::FileNode& entry) {
+    if (entry.isMap()) {
+      bool all = entry.size() > 0;
+      for (const cv::FileNode nested : entry) all = collect_replaced(name + '.' + nested.name(), nested) && all;
+      return all;
+    }
+    const std::optional<std::string_view> replacement = replacement_of(name);
+    if (replacement) replaced_.push_back(name + ": " + std::string(*replacement));
+    return replacement.has_value();
+  }
+
   cv::FileNode find(const char* name) {
     known_.emplace_back(name);
     return node_[name];
@@ -164,7 +182,7 @@ class OptionReader {
 
   template <class T>
   void read_into(const char* name, const cv::FileNode& entry, T& group, bool assigns) {
-    OptionReader nested(file_, entry, path_ + name + ".", assigns);
+    OptionReader nested(file_, entry, path_ + name + ".", assigns, replaced_);
     each_option(group, nested);
     nested.require_all_known();
   }
@@ -173,6 +191,7 @@ class OptionReader {
   cv::FileNode node_;
   std::string path_;
   bool assigns_;
+  std::vector<std::string>& replaced_;
   std::vector<std::string> known_;
 };
 
@@ -198,14 +217,21 @@ void write_options(const std::filesystem::path& file, FrameFilter<Policies>& fil
 
 /// Sets the options that a file names; the others stay. Call it before the first frame.
 /// @throws Error naming file and option, what was found and what was expected: an option that no stage of this filter
-///         has, a value of the wrong kind or out of range. Then no option was changed.
+///         has, a value of the wrong kind or out of range. Where the file holds options that earlier versions had, what
+///         replaced each of them, a line each. Then no option was changed.
 template <class Policies>
 void read_options(const std::filesystem::path& file, FrameFilter<Policies>& filter) {
   const YamlFile yaml(file);
   for (const bool assigns : {false, true}) {
-    detail::OptionReader reader(yaml, yaml.root(), "", assigns);
+    std::vector<std::string> replaced;
+    detail::OptionReader reader(yaml, yaml.root(), "", assigns, replaced);
     each_option(filter, reader);
     reader.require_all_known();
+    if (replaced.empty()) continue;
+    std::string list;
+    for (const std::string& line : replaced) list += "\n  " + line;
+    throw Error(file.string() + ": " + std::to_string(replaced.size()) +
+                (replaced.size() == 1 ? " option is" : " options are") + " gone; delete or rename" + list);
   }
 }
 

@@ -18,8 +18,6 @@ namespace stillpoint {
 /// seen past it.
 class ForegroundPrior : public BoxPrior {
  public:
-  double reach_m = 0.1;  ///< the thing reaches this far from its middle's depth, either way
-
   void regions(const FrameView& frame, Regions& regions) const {
     BoxPrior::regions(frame, regions);
     if (frame.depth.empty()) return;
@@ -28,12 +26,14 @@ class ForegroundPrior : public BoxPrior {
   }
 
  protected:
+  static constexpr double kReach_m = 0.1;  // the object reaches this far from its middle's depth, either way
+
   /// Leaves the range as it is where there is too little depth.
   void set_range(const DepthView& depth, const DepthScale& to_depth, Detection& detection) const {
     const std::optional<ThingDepth> thing = ThingDepth::measure(depth, to_depth, detection.box);
     if (!thing) return;
-    detection.nearest_m = thing->middle_m - reach_m;
-    detection.farthest_m = thing->middle_m + reach_m;
+    detection.nearest_m = thing->middle_m - kReach_m;
+    detection.farthest_m = thing->middle_m + kReach_m;
     detection.depth_slope_m = thing->slope_m;
   }
 };

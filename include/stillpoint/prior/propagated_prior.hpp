@@ -32,13 +32,7 @@ namespace stillpoint {
 class PropagatedPrior : public ForegroundPrior {
  public:
   struct Carrying {
-    double longest_s = 2.0;           ///< a thing that was not seen for longer is forgotten
-    int most_missed = 8;              ///< and one that was missing in more answers in a row
-    double growth_per_s = 0.2;        ///< share of its size by which an unseen box grows on each side, each second
-    double half_life_s = 1.0;         ///< in which the confidence of an unseen box halves
-    float least_overlap = 0.2f;       ///< intersection over union above which a new box is a carried thing's
-    double most_jump_m = 0.2;         ///< of a thing's depth from frame to frame; more is something before it
-    std::size_t fewest_features = 4;  ///< on a thing, to be carried by them
+    double longest_s = 2.0;  ///< an object that was not seen for longer is forgotten
   };
   Carrying carrying;
 
@@ -88,7 +82,7 @@ class PropagatedPrior : public ForegroundPrior {
     if (motion.reference_timestamp_s > picture.timestamp_s - 0.99 * picture.elapsed_s) return;
     picture.set_steps(matches);
     if (motion.usable()) picture.set_camera_motion(motion, camera);
-    for (CarriedDetection& thing : things_) thing.correct(picture, carrying.fewest_features, workspace_);
+    for (CarriedDetection& thing : things_) thing.correct(picture, kFewestFeatures, workspace_);
   }
 
   /// What is known of things in the frame that came last.
@@ -102,6 +96,13 @@ class PropagatedPrior : public ForegroundPrior {
   }
 
  private:
+  static constexpr double kHalfLife_s = 1.0;         // in which the confidence of an unseen box halves
+  static constexpr int kMostMissed = 8;              // a thing that was missing in more answers in a row is forgotten
+  static constexpr double kGrowth_per_s = 0.2;       // share of its size by which an unseen box grows on each side
+  static constexpr float kLeastOverlap = 0.2f;       // intersection over union: above, a new box is a carried thing's
+  static constexpr double kMostJump_m = 0.2;         // of a thing's depth between frames; more is something before it
+  static constexpr std::size_t kFewestFeatures = 4;  // on a thing, to be carried by them
+
   /// Finds the depth of a carried thing, which can't have jumped: then something else is before it, or it is behind
   /// something, and its old depth stays.
   void follow_depth(const DepthView& depth, const DepthScale& to_depth, CarriedDetection& thing) const {
@@ -109,7 +110,7 @@ class PropagatedPrior : public ForegroundPrior {
     Detection measured = thing.detection;
     set_range(depth, to_depth, measured);
     const double jump_m = 0.5 * (measured.nearest_m + measured.farthest_m) - thing.depth_m();
-    if (thing.has_depth_range() && !(std::abs(jump_m) <= carrying.most_jump_m)) return;
+    if (thing.has_depth_range() && !(std::abs(jump_m) <= kMostJump_m)) return;
     thing.detection.nearest_m = measured.nearest_m;
     thing.detection.farthest_m = measured.farthest_m;
     thing.detection.depth_slope_m = measured.depth_slope_m;
@@ -122,12 +123,12 @@ class PropagatedPrior : public ForegroundPrior {
       if (!is_valid(seen)) continue;
       CarriedDetection thing(seen, pictures_[frame].timestamp_s);
       set_range(pictures_[frame].depth(), pictures_[frame].to_depth(), thing.detection);
-      thing.correct(pictures_[frame], carrying.fewest_features, workspace_);
+      thing.correct(pictures_[frame], kFewestFeatures, workspace_);
       for (std::size_t i = frame + 1; i < pictures_.size(); ++i) {
         const PictureMotion& picture = pictures_[i];
         thing.predict(picture);
         follow_depth(picture.depth(), picture.to_depth(), thing);
-        thing.correct(picture, carrying.fewest_features, workspace_);
+        thing.correct(picture, kFewestFeatures, workspace_);
       }
       fresh_.push_back(thing);
     }
@@ -140,7 +141,7 @@ class PropagatedPrior : public ForegroundPrior {
     const Workspace::Scope scope(workspace_);
     const span<char> is_taken = workspace_.take<char>(fresh_.size()), is_seen = workspace_.take<char>(things_.size());
     for (;;) {
-      float best = carrying.least_overlap;
+      float best = kLeastOverlap;
       std::size_t best_fresh = fresh_.size(), best_thing = 0;
       for (std::size_t f = 0; f < fresh_.size(); ++f) {
         for (std::size_t t = 0; t < things_.size() && !is_taken[f]; ++t) {
@@ -165,15 +166,15 @@ class PropagatedPrior : public ForegroundPrior {
 
   void forget(const PictureMotion& picture) {
     const auto is_gone = [&](const CarriedDetection& thing) {
-      return !(picture.timestamp_s - thing.seen_s <= carrying.longest_s) || thing.missed > carrying.most_missed ||
+      return !(picture.timestamp_s - thing.seen_s <= carrying.longest_s) || thing.missed > kMostMissed ||
              !thing.is_in(picture);
     };
     things_.erase(std::remove_if(things_.begin(), things_.end(), is_gone), things_.end());
   }
 
   void append(const CarriedDetection& thing, double unseen_s, Regions& regions) const {
-    const auto decay = static_cast<float>(std::exp2(-unseen_s / carrying.half_life_s));
-    const Detection grown = thing.grown(static_cast<float>(carrying.growth_per_s * unseen_s), decay);
+    const auto decay = static_cast<float>(std::exp2(-unseen_s / kHalfLife_s));
+    const Detection grown = thing.grown(static_cast<float>(kGrowth_per_s * unseen_s), decay);
     if (is_valid(grown)) regions.detections.push_back(grown);
   }
 

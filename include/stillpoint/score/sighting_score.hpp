@@ -25,21 +25,15 @@ namespace stillpoint {
 class SightingScore {
  public:
   struct Options {
-    double pixel_sigma = 1.0;           ///< of a found patch that looks unlike, pixels
-    double alike_share = 0.5;           ///< and of one that looks just alike, of that
-    double motion_sigmas = 3.2;         ///< where the motion says how exact its own matches are: so many of theirs …
-    double least_noise = 0.3;           ///< … but no less than this of all that is said here of places, and no more
-    double drift_px_per_s = 1.0;        ///< what chained poses and rolling shutter add with time
-    double depth_sigmas = 1.5;          ///< measured depth noise over the model's
-    double depth_floor_m = 0.004;       ///< and what is left when the model's is nothing
-    double dissimilarity_scale = 0.12;  ///< 1 − correlation that a standing patch exceeds with probability 1/e
-    double most_from_place = 8.0;       ///< −log ε of the found place, nats
-    double most_from_look = 6.0;        ///< of the dissimilarity
-    double most_from_depth = 8.0;       ///< of the depth
-    double expected_patch = 2.5;        ///< what a standing point scores by place and look on average
-    double expected_depth = 1.0;        ///< and by depth
+    double pixel_sigma = 1.0;      ///< of a found patch that looks unlike, pixels
+    double depth_sigmas = 1.5;     ///< measured depth noise over the model's
+    double most_from_place = 8.0;  ///< −log ε of the found place, nats
+    double most_from_look = 6.0;   ///< of the dissimilarity, nats
+    double most_from_depth = 8.0;  ///< of the depth, nats
   };
   Options options;
+
+  double expected_patch = 2.5;  ///< what a static point scores by place and look on average, nats; no option in files
 
   /// Features without any sighting keep NaN.
   template <class Camera>
@@ -68,6 +62,14 @@ class SightingScore {
   static constexpr double kMostFromThrough = 8.0;  // two such views
   static constexpr double kSingleShare = 0.7;      // of its evidence, where one frame alone saw the place
 
+  static constexpr double kAlikeShare = 0.5;           // σ of a patch that looks just alike, of `pixel_sigma`
+  static constexpr double kMotionSigmas = 3.2;         // of the motion's own matches are what a place has here …
+  static constexpr double kLeastNoise = 0.3;           // … but no less than this of what is assumed, and no more
+  static constexpr double kDrift_px_per_s = 1.0;       // what chained poses and rolling shutter add with time
+  static constexpr double kDepthFloor_m = 0.004;       // what is left when the noise model's is nothing
+  static constexpr double kDissimilarityScale = 0.12;  // 1 − correlation: static patches exceed it with probability 1/e
+  static constexpr double kExpectedDepth = 1.0;        // what a static point scores by depth on average, nats
+
   /// What the pose's own uncertainty moves a pixel, the same in all directions: f² (σ_ω² + σ_v² / z²).
   static double pose_variance_sq_px(const Motion& motion, double depth_m, double focal_px) noexcept {
     const double rotation = motion.covariance.topLeftCorner<3, 3>().trace() / 3.0;
@@ -77,12 +79,11 @@ class SightingScore {
 
   /// A patch that looks just alike is located better than one that does not.
   double place_sigma_px(float dissimilarity, double elapsed_s, const Motion& motion) const noexcept {
-    const double unlike = std::min(1.0, static_cast<double>(dissimilarity) / options.dissimilarity_scale);
-    const double sigma_px = options.pixel_sigma * (options.alike_share + (1.0 - options.alike_share) * unlike) +
-                            options.drift_px_per_s * elapsed_s;
+    const double unlike = std::min(1.0, static_cast<double>(dissimilarity) / kDissimilarityScale);
+    const double sigma_px =
+        options.pixel_sigma * (kAlikeShare + (1.0 - kAlikeShare) * unlike) + kDrift_px_per_s * elapsed_s;
     if (!(motion.pixel_sigma > 0)) return sigma_px;
-    return sigma_px *
-           std::clamp(options.motion_sigmas * motion.pixel_sigma / options.pixel_sigma, options.least_noise, 1.0);
+    return sigma_px * std::clamp(kMotionSigmas * motion.pixel_sigma / options.pixel_sigma, kLeastNoise, 1.0);
   }
 
   /// The squared whitened distance from where a standing point would be to where its patch was found.
@@ -113,16 +114,16 @@ class SightingScore {
       const Vector3d spread =
           (frame.reference_from_current.translation() - there) * (point.z() * matches.sightings.inverse_depth_sigma[i]);
       const double squared = squared_distance(there, spread, sighting.found, variance, camera);
-      const double look = static_cast<double>(sighting.dissimilarity) / options.dissimilarity_scale;
-      evidence += std::min(0.5 * squared, options.most_from_place) + std::min(look, options.most_from_look) -
-                  options.expected_patch;
+      const double look = static_cast<double>(sighting.dissimilarity) / kDissimilarityScale;
+      evidence +=
+          std::min(0.5 * squared, options.most_from_place) + std::min(look, options.most_from_look) - expected_patch;
     }
     if (sighting.depth_m > 0) {
       const double here_m = matches.current.depth_sigma_m[i], there_m = static_cast<double>(sighting.depth_sigma_m);
-      const double sigma = motion.depth_noise * (options.depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m) +
-                                                 options.depth_floor_m);
+      const double sigma =
+          motion.depth_noise * (options.depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m) + kDepthFloor_m);
       const double error = (static_cast<double>(sighting.depth_m) - there.z()) / sigma;
-      evidence += std::min(0.5 * error * error, options.most_from_depth) - options.expected_depth;
+      evidence += std::min(0.5 * error * error, options.most_from_depth) - kExpectedDepth;
     }
     return evidence;
   }

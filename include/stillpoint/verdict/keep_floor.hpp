@@ -25,7 +25,6 @@ class KeepFloor {
   struct Options {
     std::size_t fewest_features = 30;  ///< trackers call themselves lost below 10 to 30 matches
     std::size_t fewest_cells = 3;      ///< of the grid
-    std::size_t columns = 4, rows = 3;
   };
   Options options;
 
@@ -33,7 +32,7 @@ class KeepFloor {
   std::size_t apply(span<const Vector2f> pixels, const ImageView& image, span<Label> labels,
                     Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
-    const span<std::size_t> kept_in_cell = workspace.take<std::size_t>(options.columns * options.rows);
+    const span<std::size_t> kept_in_cell = workspace.take<std::size_t>(kColumns * kRows);
     const span<std::uint32_t> dropped = workspace.take<std::uint32_t>(labels.size());
     std::size_t kept = 0, count = 0, cells = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -65,14 +64,15 @@ class KeepFloor {
   }
 
  private:
+  static constexpr std::size_t kColumns = 4, kRows = 3;  // of the grid: cells about as high as wide
+
   std::size_t cell(const Vector2f& pixel, const ImageView& image) const noexcept {
     const auto part = [](float coordinate, int size, std::size_t parts) -> std::size_t {
       const float scaled = coordinate / static_cast<float>(std::max(size, 1)) * static_cast<float>(parts);
       return std::isfinite(scaled) ? static_cast<std::size_t>(std::clamp(scaled, 0.0f, static_cast<float>(parts - 1)))
                                    : 0;
     };
-    return part(pixel.y(), image.height, options.rows) * options.columns +
-           part(pixel.x(), image.width, options.columns);
+    return part(pixel.y(), image.height, kRows) * kColumns + part(pixel.x(), image.width, kColumns);
   }
 };
 

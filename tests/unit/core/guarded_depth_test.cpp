@@ -30,9 +30,9 @@ struct Wall {
 /// An edge is more than 0.02 + 0.01 · 4 = 0.06 m at 2 m.
 GuardedDepth guarded() {
   GuardedDepth lookup;
-  lookup.options.fewest_neighbours = 6;
-  lookup.options.jump_m = 0.02;
-  lookup.options.jump_per_square_m = 0.01;
+  lookup.fewest_neighbours = 6;
+  lookup.jump_m = 0.02;
+  lookup.jump_per_square_m = 0.01;
   return lookup;
 }
 

@@ -21,8 +21,6 @@ static_assert(is_gate<TailGate>::value);
 TailGate gate(double rate) {
   TailGate gate;
   gate.options.false_positive_rate = rate;
-  gate.options.level_of_one_percent = 4.0;
-  gate.options.decay = 1.3;
   return gate;
 }
 
@@ -31,11 +29,11 @@ double level(double rate) {
   return gate(rate).threshold({}, Regions{}, workspace).level;
 }
 
-// 4 − 1.3 ln(rate / 0.01): ln 5 = 1.609438, ln 0.1 = −2.302585.
+// 2.3 − 0.8 ln(rate / 0.01): ln 5 = 1.609438, ln 0.1 = −2.302585.
 TEST(TailGate, LevelIsThatOfTheWantedRate) {
-  EXPECT_NEAR(level(0.01), 4.0, 1e-12);
-  EXPECT_NEAR(level(0.05), 1.907731, 1e-6);
-  EXPECT_NEAR(level(0.001), 6.993361, 1e-6);
+  EXPECT_NEAR(level(0.01), 2.3, 1e-12);
+  EXPECT_NEAR(level(0.05), 1.012450, 1e-6);
+  EXPECT_NEAR(level(0.001), 4.142068, 1e-6);
 }
 
 TEST(TailGate, RatesAreHeldWithinSense) {
@@ -55,7 +53,7 @@ TEST(TailGate, HoldsTheRateOnItsOwnModel) {
     int above = 0;
     for (int i = 0; i < kDraws; ++i) {
       const double tail = 1.0 - random.uniform();  // P(score > s)
-      above += 4.0 - 1.3 * std::log(tail / 0.01) > limit;
+      above += 2.3 - 0.8 * std::log(tail / 0.01) > limit;
     }
     EXPECT_NEAR(above / double{kDraws}, rate, 4.0 * std::sqrt(rate * (1 - rate) / kDraws)) << rate;
   }
@@ -88,26 +86,24 @@ struct Frame {
 // many as the bound of two allows.
 TEST(TailGate, RisesWhereMoreThanTheRateOfWhatStandsExceeds) {
   TailGate learner = gate(0.01);
-  learner.options.gain = 0.01;
-  learner.options.most_excess = 2.0;
   const Frame twice(100, 2), often(100, 10);
   learner.learn(twice.matches, twice.labels);
   EXPECT_NEAR(learner.raised(), 0.01, 1e-12);
   learner.learn(often.matches, often.labels);
   EXPECT_NEAR(learner.raised(), 0.02, 1e-12);
   Workspace workspace;
-  EXPECT_NEAR(learner.threshold({}, Regions{}, workspace).level, 4.02, 1e-12);
+  EXPECT_NEAR(learner.threshold({}, Regions{}, workspace).level, 2.32, 1e-12);
   learner.reset();
-  EXPECT_EQ(learner.threshold({}, Regions{}, workspace).level, 4.0);
+  EXPECT_EQ(learner.threshold({}, Regions{}, workspace).level, 2.3);
 }
 
 TEST(TailGate, SinksBackToThePriorAndNoLower) {
   TailGate learner = gate(0.01);
   const Frame loud(100, 50), quiet(100, 0);
   for (int i = 0; i < 1000; ++i) learner.learn(loud.matches, loud.labels);
-  EXPECT_EQ(learner.raised(), learner.options.most_raised);
+  EXPECT_EQ(learner.raised(), 3.0) << "nats";
   learner.learn(quiet.matches, quiet.labels);
-  EXPECT_NEAR(learner.raised(), learner.options.most_raised - learner.options.gain, 1e-12);
+  EXPECT_NEAR(learner.raised(), 3.0 - 0.01, 1e-12);
   for (int i = 0; i < 1000; ++i) learner.learn(quiet.matches, quiet.labels);
   EXPECT_EQ(learner.raised(), 0.0);
 }
@@ -115,7 +111,7 @@ TEST(TailGate, SinksBackToThePriorAndNoLower) {
 TEST(TailGate, LearnsOnlyFromWhatIsKnownToStand) {
   TailGate learner = gate(0.01);
   Frame moving(100, 100), suspect(100, 100), corners(100, 100);
-  Frame few(learner.options.fewest_known - 1, 40);
+  Frame few(49, 40);  // 50 are needed
   for (float& log_odds : moving.matches.recalled_log_odds) log_odds = -1.0f;
   for (float& trust : suspect.matches.trust) trust = 0.9f;
   corners.matches.host_count = 0;  // the matcher's own
@@ -124,21 +120,22 @@ TEST(TailGate, LearnsOnlyFromWhatIsKnownToStand) {
 }
 
 // A world whose tail is longer than the prior's: evidence of a standing feature exceeds the level with the probability
-// P(level) = exp(−(level − 4) / 1.3) × 5 %. It is the rate of 1 % where the level is 4 + 1.3 ln 5 = 6.09. The tolerance
-// is four standard deviations of what is measured at the end, 100 frames of 300 features, in nats: 1.3 / √300.
+// P(level) = exp(−(level − 2.3) / 0.8) × 5 %. It is the rate of 1 % where the level is 2.3 + 0.8 ln 5 = 3.59. The
+// tolerance is four standard deviations of what is measured at the end, 100 frames of 300 features, in nats: 0.8 /
+// √300.
 TEST(TailGate, FindsTheLevelOfALongerTail) {
   TailGate learner = gate(0.01);
   Random random(3);
   double sum = 0;
   for (int f = 0; f < 1500; ++f) {
     std::size_t exceeding = 0;
-    const double probability = 0.05 * std::exp(-learner.raised() / 1.3);
+    const double probability = 0.05 * std::exp(-learner.raised() / 0.8);
     for (int i = 0; i < 300; ++i) exceeding += random.uniform() < probability;
     const Frame frame(300, exceeding);
     learner.learn(frame.matches, frame.labels);
     if (f >= 1400) sum += learner.raised() / 100;
   }
-  EXPECT_NEAR(sum, 1.3 * std::log(5.0), 4 * 1.3 / std::sqrt(300.0));
+  EXPECT_NEAR(sum, 0.8 * std::log(5.0), 4 * 0.8 / std::sqrt(300.0));
 }
 
 }  // namespace

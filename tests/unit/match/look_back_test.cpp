@@ -32,7 +32,6 @@ static_assert(is_matcher<PatchMatcher>::value && looks_back<PatchMatcher, Camera
 std::vector<double> ages(double rate_hz, int frames, double depth_m, double longest_s = 0.5) {
   LookBack look_back;
   look_back.options.slowest_m_s = 0.1;
-  look_back.options.detectable_sigmas = 3.0;
   look_back.options.pixel_sigma = 0.7;
   look_back.options.longest_s = longest_s;
   const Camera camera(210, 210, 31.5, 23.5, 64, 48);
@@ -81,11 +80,7 @@ TEST(LookBack, AgesEndWithTheHistoryAndTheLongestTime) {
 /// A wall of waves at 2 m (or nearer) in both frames; the camera stands.
 class LookBackTest : public testing::Test {
  protected:
-  LookBackTest() {
-    look_back_.options.fewest_pixels = 25;
-    look_back_.options.occlusion_m = 0.15;
-    look_back_.options.occlusion_sigmas = 4.0;
-  }
+  LookBackTest() { look_back_.options.occlusion_sigmas = 4.0; }
 
   Sighting look(const Vector2f& pixel) {
     FrameHistory history(4);
@@ -157,29 +152,25 @@ TEST_F(LookBackTest, FreeSpaceIsSeenAndOcclusionSaysNothing) {
   EXPECT_EQ(look({80, 60}).state, SightingState::occluded);
 }
 
-// A person stood at 70 px and less in the older frame: 8 px of reach from 77, not from 79, and the depth in the place
+// A person stood at 70 px and less in the older frame: 3 px of reach (8 px of a camera of 525 px) from
+// 72, not from 74, and the depth in the place
 // of the point itself says as much as ever.
 TEST_F(LookBackTest, APatchThatWasPartlyCoveredIsNotCompared) {
-  look_back_.options.occluder_reach_px = 21;  // 8 px of this camera
   older_depth_.colRange(0, 70).setTo(1.0);
-  const Sighting covered = look({77, 60});
+  const Sighting covered = look({72, 60});
   EXPECT_EQ(covered.state, SightingState::seen);
   EXPECT_TRUE(std::isnan(covered.dissimilarity));
   EXPECT_EQ(covered.depth_m, 2.0f);
-  EXPECT_LT(look({79, 60}).dissimilarity, 0.01f);
+  EXPECT_LT(look({74, 60}).dissimilarity, 0.01f);
   older_depth_.colRange(0, 70).setTo(1.9);
-  EXPECT_LT(look({77, 60}).dissimilarity, 0.01f) << "0.1 m nearer is no other surface";
-  look_back_.options.occluder_reach_px = 0;
-  older_depth_.colRange(0, 70).setTo(1.0);
-  EXPECT_LT(look({77, 60}).dissimilarity, 0.01f);
+  EXPECT_LT(look({72, 60}).dissimilarity, 0.01f) << "0.1 m nearer is no other surface";
 }
 
 // The camera went 0.04 m to the right: a point at 2 m was 4 px, one at 1 m 8 px further right. The feature has no depth
 // and both surfaces beside it; it is found on the one that the older image agrees with.
 TEST_F(LookBackTest, AFeatureWithoutADepthLiesOnASurfaceBesideIt) {
-  look_back_.options.surrounding_px = 60;  // 23 px of this camera
-  depth_.colRange(60, 90).setTo(0.0);
-  depth_.colRange(90, 160).setTo(1.0);
+  depth_.colRange(68, 82).setTo(0.0);  // 9 px are looked at: 24 px of a camera of 525 px
+  depth_.colRange(82, 160).setTo(1.0);
   filter_from_current_.translation().x() = 0.04;
   older_depth_ = wall(0.0);
   for (const double depth_m : {1.0, 2.0}) {

@@ -25,26 +25,16 @@ struct Feature {
   double depth_m = 2.0;
 };
 
-/// Frames come every tenth of a second. Half of the log-odds stay from one to the next, they are held within ± 6,
-/// dynamic above 0 and until below −0.5.
+/// Frames come every tenth of a second. Half of the log-odds stay from one to the next, they are held within ± 3,
+/// dynamic above 0. Above 2 a feature is suspect at once, and nine tenths of that stay.
 class EvidenceMemoryTest : public testing::Test {
  protected:
   static constexpr double kElapsed_s = 0.1;
 
   EvidenceMemoryTest() {
     memory_.options.log_odds_decay_s = kElapsed_s / std::log(2.0);
-    memory_.options.most_log_odds = 6.0f;
-    memory_.options.drop_above = 0.0f;
-    memory_.options.keep_below = -0.5f;
-    memory_.options.suspect_above = 1.0f;
     memory_.options.suspicion_rise_s = 1e-6;
     memory_.options.suspicion_decay_s = kElapsed_s / std::log(1.0 / 0.9);
-    memory_.options.restlessness = 0.0f;
-    memory_.options.least_trust = 0.1f;
-    memory_.options.feature_px = 15.0f;
-    memory_.options.neighbour_px = 25.0f;
-    memory_.options.minority = 0.25f;
-    memory_.options.same_surface = {0.06, 0.01};  // 0.1 m at 2 m
   }
 
   /// One frame in which the features have these log-odds by themselves.
@@ -83,11 +73,11 @@ class EvidenceMemoryTest : public testing::Test {
 
 constexpr float kRounding = 1e-4f;
 
-// Parked: −2, then −2 + ½ (−2) = −3. It moves: 3 − 1.5 = 1.5, 3 + 0.75 = 3.75. It parks: −2 + 1.875 = −0.125, which is
-// still dynamic, since it was; −2 − 0.0625.
+// Parked: −2, then −2 + ½ (−2) = −3. It moves: 3 − 1.5 = 1.5, 3 + 0.75 = 3.75, held at 3. It parks: −1 + 1.5 = 0.5,
+// which is still dynamic; −1 + 0.25.
 TEST_F(EvidenceMemoryTest, ParkedMovingParked) {
-  const float now[] = {-2, -2, 3, 3, -2, -2};
-  const float sum[] = {-2, -3, 1.5f, 3.75f, -0.125f, -2.0625f};
+  const float now[] = {-2, -2, 3, 3, -1, -1};
+  const float sum[] = {-2, -3, 1.5f, 3, 0.5f, -0.75f};
   const bool keep[] = {true, true, false, false, false, true};
   for (int f = 0; f < 6; ++f) {
     frame(now[f]);
@@ -96,18 +86,6 @@ TEST_F(EvidenceMemoryTest, ParkedMovingParked) {
     EXPECT_EQ(labels_[0].verdict, keep[f] ? Verdict::kept : Verdict::dynamic) << f;
     EXPECT_NEAR(labels_[0].probability, 1.0f / (1.0f + std::exp(-sum[f])), kRounding) << f;
   }
-}
-
-TEST_F(EvidenceMemoryTest, HysteresisHoldsAVerdictBetweenTheTwoLevels) {
-  frame(-0.2f);
-  EXPECT_TRUE(labels_[0].keep) << "from standing, −0.2 is standing";
-  memory_.reset();
-  frame(1.0f);
-  frame(-0.7f);
-  EXPECT_NEAR(labels_[0].log_odds, -0.2f, kRounding);
-  EXPECT_FALSE(labels_[0].keep) << "from moving, −0.2 is moving";
-  frame(0.05f);
-  EXPECT_TRUE(labels_[0].keep) << "−0.05: the frame before was below the upper level, nothing holds it";
 }
 
 TEST_F(EvidenceMemoryTest, SaysWhatDecided) {
@@ -128,10 +106,10 @@ TEST_F(EvidenceMemoryTest, SaysWhatDecided) {
 
 TEST_F(EvidenceMemoryTest, LogOddsAreHeld) {
   frame(100.0f);
-  EXPECT_EQ(labels_[0].log_odds, 6.0f);
+  EXPECT_EQ(labels_[0].log_odds, 3.0f);
   memory_.reset();
   frame(-100.0f);
-  EXPECT_EQ(labels_[0].log_odds, -6.0f);
+  EXPECT_EQ(labels_[0].log_odds, -3.0f);
 }
 
 // 9 px on: the same feature; 15 px and more: another one. On another surface it never is.
@@ -140,14 +118,14 @@ TEST_F(EvidenceMemoryTest, AFeatureIsRecognisedByPlaceAndDepth) {
     Feature feature;
     float recalled;
   };
-  for (const Case& c : {Case{{{59, 50}, 2.0}, 2.0f},
+  for (const Case& c : {Case{{{59, 50}, 2.0}, 1.5f},
                         {{{65, 50}, 2.0}, 0.0f},
-                        {{{50, 50}, 2.09}, 2.0f},
+                        {{{50, 50}, 2.09}, 1.5f},
                         {{{50, 50}, 2.2}, 0.0f},
                         {{{50, 50}, 1.8}, 0.0f},
-                        {{{50, 50}, 0.0}, 2.0f}}) {
+                        {{{50, 50}, 0.0}, 1.5f}}) {
     memory_.reset();
-    frame(4.0f);
+    frame(3.0f);
     frame({c.feature}, {-0.1f});
     EXPECT_NEAR(labels_[0].log_odds, c.recalled - 0.1f, kRounding)
         << c.feature.pixel.transpose() << " " << c.feature.depth_m;
@@ -155,7 +133,7 @@ TEST_F(EvidenceMemoryTest, AFeatureIsRecognisedByPlaceAndDepth) {
 }
 
 TEST_F(EvidenceMemoryTest, AMatchedFeatureIsLookedUpWhereItWas) {
-  frame(4.0f);
+  frame(3.0f);
   const std::vector<Vector2f> pixels = {{120, 90}};
   matches_.begin(pixels);
   matches_.current.depth_m[0] = 2.0;
@@ -164,30 +142,30 @@ TEST_F(EvidenceMemoryTest, AMatchedFeatureIsLookedUpWhereItWas) {
   memory_.recall(matches_, workspace_);
   labels_.assign(1, Label{});
   memory_.update(matches_, Motion{}, {}, labels_, workspace_);
-  EXPECT_NEAR(labels_[0].log_odds, 2.0f, kRounding);
+  EXPECT_NEAR(labels_[0].log_odds, 1.5f, kRounding);
 }
 
 // Three frames in a second or thirty: after half a second of −1 for each tenth of a second as much is left of a
 // verdict. One frame after 0.2 s keeps a quarter.
 TEST_F(EvidenceMemoryTest, LogOddsFadeWithTimeNotWithFrames) {
-  frame(4.0f);
+  frame(3.0f);
   elapsed_s_ = 0.2;
   frame(0.0f);
-  EXPECT_NEAR(labels_[0].log_odds, 1.0f, kRounding);
+  EXPECT_NEAR(labels_[0].log_odds, 0.75f, kRounding);
   memory_.reset();
   elapsed_s_ = kElapsed_s;
-  frame(4.0f);
+  frame(3.0f);
   frame(0.0f);
   frame(0.0f);
-  EXPECT_NEAR(labels_[0].log_odds, 1.0f, kRounding) << "two frames of 0.1 s are one of 0.2 s";
+  EXPECT_NEAR(labels_[0].log_odds, 0.75f, kRounding) << "two frames of 0.1 s are one of 0.2 s";
 }
 
 // Nobody followed the feature. A corner 10 px beside it on its surface came from 70 px to the left: so did the feature.
 // One on another surface says nothing: then it is looked up where it was if it stands still.
 TEST_F(EvidenceMemoryTest, AFeatureThatNobodyFollowedIsLookedUpWhereItsSurfaceWas) {
-  for (const auto& [corner_depth_m, recalled] : {std::pair(2.0, 2.0f), std::pair(3.0, -1.0f)}) {
+  for (const auto& [corner_depth_m, recalled] : {std::pair(2.0, 1.5f), std::pair(3.0, -1.0f)}) {
     memory_.reset();
-    frame({{Vector2f(50, 50)}, {Vector2f(200, 50)}}, {4.0f, -2.0f});
+    frame({{Vector2f(50, 50)}, {Vector2f(200, 50)}}, {3.0f, -2.0f});
     const std::vector<Vector2f> pixels = {{120, 50}};
     matches_.begin(pixels);
     matches_.elapsed_s = kElapsed_s;
@@ -213,26 +191,26 @@ TEST_F(EvidenceMemoryTest, ResetForgets) {
 
 // ---- Suspicion ----
 
-// What moved once is suspect, also when it stands again: its say is 1 − 0.9 · 0.9 in the next frame.
+// What moved once is suspect, also when it stands again: its say is 1 − 0.99 · 0.9 in the next frame.
 TEST_F(EvidenceMemoryTest, WhatMovedOnceHasLittleSayForLong) {
   frame(-2.0f);
   frame(-2.0f);
   EXPECT_EQ(matches_.trust[0], 1.0f);
   frame(5.0f);
   frame(-6.0f);
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
   frame(-6.0f);
   EXPECT_TRUE(labels_[0].keep) << "suspicion drives no verdict";
   EXPECT_LT(matches_.trust[0], 0.3f);
 }
 
-// It moved, which makes it suspect in full; then it stands for long, and its log-odds are held at −6 · (1 − ½ · 0.9)
-// instead of −6, so that it is found sooner when it starts again. What never moved keeps the whole bound.
+// It moved, which makes it suspect in full; then it stands for long, and its log-odds are held at
+// −3 · (1 − 0.6 · 0.9) instead of −3, so that it is found sooner when it starts again. What never moved keeps the whole
+// bound.
 TEST_F(EvidenceMemoryTest, WhatMovedOnceIsFoundSoonerWhenItStartsAgain) {
-  memory_.options.restlessness = 0.5f;
   for (const float now : {5.0f, -6.0f, -6.0f, -6.0f}) frame({{Vector2f(50, 50)}, {Vector2f(200, 50)}}, {now, -6.0f});
-  EXPECT_NEAR(labels_[0].log_odds, -6.0f * (1.0f - 0.5f * 0.9f), kRounding);
-  EXPECT_NEAR(labels_[1].log_odds, -6.0f, kRounding);
+  EXPECT_NEAR(labels_[0].log_odds, -3.0f * (1.0f - 0.6f * 0.9f), kRounding);
+  EXPECT_NEAR(labels_[1].log_odds, -3.0f, kRounding);
   EXPECT_LT(labels_[0].trust, 0.3f);
   EXPECT_EQ(labels_[0].trust, matches_.trust[0]);
   EXPECT_EQ(labels_[1].trust, 1.0f);
@@ -259,7 +237,7 @@ TEST_F(EvidenceMemoryTest, SuspicionIsInheritedByMajority) {
     ring(suspects, features, log_odds);
     frame(features, log_odds);
     frame(-1.0f);  // one new feature in the middle, 20 px from each
-    EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * suspicion, 1e-3f) << suspects;
+    EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * suspicion, 1e-3f) << suspects;
     EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a new feature inherits no log-odds";
   }
 }
@@ -280,7 +258,7 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
   frame(features, log_odds);
   matches_.sightings.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
   memory_.recall(matches_, workspace_);
-  EXPECT_NEAR(matches_.sightings.surfaces[0].trust, 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_NEAR(matches_.sightings.surfaces[0].trust, 1.0f - 0.99f * 0.9f, kRounding);
   EXPECT_EQ(matches_.sightings.surfaces[1].trust, 1.0f);
   EXPECT_EQ(matches_.sightings.surfaces[2].trust, 1.0f);
 }
@@ -289,7 +267,7 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
 TEST_F(EvidenceMemoryTest, WhatHasStoodForSecondsIsSuspectedNoMore) {
   frame({{Vector2f(50, 50)}}, {5.0f});
   for (const auto& [was_there, trust, expected] :
-       {std::tuple(0, 1.0f, 0.19f), {1, 1.0f, 0.19f}, {2, 1.0f, 1.0f}, {2, 0.5f, 0.19f}}) {
+       {std::tuple(0, 1.0f, 0.109f), {1, 1.0f, 0.109f}, {2, 1.0f, 1.0f}, {2, 0.5f, 0.109f}}) {
     const std::vector<Vector2f> pixels = {{50, 50}};
     matches_.begin(pixels);
     matches_.elapsed_s = kElapsed_s;
@@ -316,7 +294,7 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsHandSuspicionOnWhereThereIsNoFeature) {
   frame(features, log_odds);
   frame({{Vector2f(300, 300)}}, {-1.0f});
   frame({{Vector2f(50, 50)}, {Vector2f(50, 52), 3.0}, {Vector2f(120, 50)}}, {-1.0f, -1.0f, -1.0f});
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
   EXPECT_EQ(matches_.trust[1], 1.0f) << "another surface";
   EXPECT_EQ(matches_.trust[2], 1.0f) << "a cell that was never beside anything that moved";
   EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a cell hands no log-odds on";
@@ -330,7 +308,7 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
   ring(10, features, log_odds);
   frame(features, log_odds);
   frame({{Vector2f(50, 50), 0.0}}, {-1.0f});
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding) << "there is no other to ask";
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding) << "there is no other to ask";
   memory_.reset();
   ring(0, depthless, standing);
   for (std::size_t k = 0; k < depthless.size(); ++k) {
@@ -339,7 +317,7 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
   }
   frame(features, log_odds);
   frame({{Vector2f(50, 50)}, {Vector2f(50, 50), 0.0}}, {-1.0f, -1.0f});
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
   EXPECT_EQ(matches_.trust[1], 1.0f);
 }
 
@@ -347,11 +325,11 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
 // second makes it 0.63 + 0.6 · 0.37 = 0.852, all of which is handed on: 0.9.
 TEST_F(EvidenceMemoryTest, SuspicionGrowsFromFrameToFrame) {
   memory_.options.suspicion_rise_s = kElapsed_s / std::log(1.0 / 0.4);
-  frame(2.0f);
-  frame(2.0f);
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.63f, kRounding);
-  frame(2.0f);
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.9f * 0.9f, kRounding);
+  frame(2.5f);
+  frame(2.5f);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.63f, kRounding);
+  frame(2.5f);
+  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
 }
 
 TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {

@@ -5,23 +5,21 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "motion_scene.hpp"
 
 namespace stillpoint {
 namespace {
 
-/// After one second: a velocity that is known within 2 m and 0.5 rad, and four constraints that say what one says, so
-/// that its information is 4 / 2² = 1 along an axis and 4 / 0.5² = 16 about it.
-Inertia by_hand(double degrees_of_freedom) {
+/// After one second: a velocity that is known within √12 m and √12 / 4 rad, and twelve constraints that say what one
+/// says, so that its information is 12 / 12 = 1 along an axis and 12 / (12 / 16) = 16 about it.
+Inertia by_hand() {
   Inertia inertia;
-  inertia.acceleration_m_s2 = 2.0;
-  inertia.angular_acceleration_rad_s2 = 0.5;
-  inertia.correlated = 4.0;
-  inertia.degrees_of_freedom = degrees_of_freedom;
+  inertia.acceleration_m_s2 = std::sqrt(12.0);
+  inertia.angular_acceleration_rad_s2 = std::sqrt(12.0) / 4.0;
   return inertia;
 }
-
-constexpr double kGaussian = 1e12;  // degrees of freedom
 
 MotionPrior predicted(const Pose& pose, double elapsed_s = 1.0) { return {std::nullopt, false, pose, elapsed_s}; }
 
@@ -34,7 +32,7 @@ Matrix6d information(double rotation, double translation) {
 // 48 and 16 about an axis, 3 and 1 along it: a quarter of the way to 0.2 rad and 0.4 m.
 TEST(Inertia, GoesAsFarAsItsShareOfTheInformation) {
   Matrix6d sum = information(48.0, 3.0);
-  const Pose fused = by_hand(kGaussian).fuse(Pose::Identity(), sum, predicted(test::pose_of({0, 0, 0.2}, {0.4, 0, 0})));
+  const Pose fused = by_hand().fuse(Pose::Identity(), sum, predicted(test::pose_of({0, 0, 0.2}, {0.4, 0, 0})));
   EXPECT_LT(test::rotation_error(fused, test::pose_of({0, 0, 0.05}, {0, 0, 0})), 1e-9);
   EXPECT_LT(test::translation_error(fused, test::pose_of({0, 0, 0}, {0.1, 0, 0})), 1e-9);
   EXPECT_TRUE(sum.isApprox(information(64.0, 4.0), 1e-9));
@@ -45,11 +43,11 @@ TEST(Inertia, FillsInWhatTheConstraintsLeaveOpen) {
   const Pose found = test::pose_of({0.3, -0.2, 0.1}, {1.0, 2.0, -0.5});
   const Pose further = test::pose_of({0, 0, 0.02}, {0.03, 0, 0});
   Matrix6d open = Matrix6d::Zero();
-  EXPECT_TRUE(by_hand(kGaussian).fuse(found, open, predicted(further * found)).isApprox(further * found, 1e-9));
+  EXPECT_TRUE(by_hand().fuse(found, open, predicted(further * found)).isApprox(further * found, 1e-9));
   Matrix6d held = information(1e12, 1e12);
-  EXPECT_TRUE(by_hand(kGaussian).fuse(found, held, predicted(further * found)).isApprox(found, 1e-9));
+  EXPECT_TRUE(by_hand().fuse(found, held, predicted(further * found)).isApprox(found, 1e-9));
   Matrix6d turn_only = information(1e12, 0.0);
-  const Pose fused = by_hand(kGaussian).fuse(found, turn_only, predicted(further * found));
+  const Pose fused = by_hand().fuse(found, turn_only, predicted(further * found));
   EXPECT_LT(test::rotation_error(fused, found), 1e-9);
   EXPECT_LT((fused.translation() - found.translation() - Vector3d(0.03, 0, 0)).norm(), 1e-9);
 }
@@ -61,28 +59,29 @@ TEST(Inertia, SharesWhatOnlyTheSumIsKnownOf) {
   Matrix6d sum = Matrix6d::Zero();
   sum(2, 2) = sum(3, 3) = sum(2, 3) = sum(3, 2) = 100.0;
   // Found at ω = 0.1, v = 0, which fits as well as any; back to rest it is −0.1 about z.
-  const Pose fused = by_hand(kGaussian).fuse(test::pose_of({0, 0, 0.1}, {0, 0, 0}), sum, predicted(Pose::Identity()));
+  const Pose fused = by_hand().fuse(test::pose_of({0, 0, 0.1}, {0, 0, 0}), sum, predicted(Pose::Identity()));
   EXPECT_NEAR(vector_from_rotation(fused.linear()).z(), 10.0 / 1716.0, 1e-6);
   EXPECT_NEAR(fused.translation().x(), 160.0 / 1716.0, 1e-6);
 }
 
-// 8 m off with information 3 and 1: e² = 8² / (1/3 + 1) / 4 = 12. Student's weight with four degrees of freedom is
-// (4 + 6) / (4 + 12) = 0.625, so that 0.625 / 3.625 of the way is left.
+// √480 m off with information 3 and 1: e² = 480 / (1/3 + 1) / 12 = 30. Student's weight with ten degrees of freedom is
+// (10 + 6) / (10 + 30) = 0.4, so that 0.4 / 3.4 of the way is left.
 TEST(Inertia, AJoltIsBelieved) {
   Matrix6d sum = information(48.0, 3.0);
-  const Pose fused = by_hand(4.0).fuse(Pose::Identity(), sum, predicted(test::pose_of({0, 0, 0}, {8.0, 0, 0})));
-  EXPECT_NEAR(fused.translation().x(), 8.0 * 0.625 / 3.625, 1e-9);
-  EXPECT_NEAR(sum(3, 3), 3.625, 1e-9);
-  EXPECT_NEAR(sum(0, 0), 48.0 + 0.625 * 16.0, 1e-9);
+  const Pose fused =
+      by_hand().fuse(Pose::Identity(), sum, predicted(test::pose_of({0, 0, 0}, {std::sqrt(480.0), 0, 0})));
+  EXPECT_NEAR(fused.translation().x(), std::sqrt(480.0) * 0.4 / 3.4, 1e-9);
+  EXPECT_NEAR(sum(3, 3), 3.4, 1e-9);
+  EXPECT_NEAR(sum(0, 0), 48.0 + 0.4 * 16.0, 1e-9);
   Matrix6d near = information(48.0, 3.0);
-  const Pose steady = by_hand(4.0).fuse(Pose::Identity(), near, predicted(test::pose_of({0, 0, 0}, {0.4, 0, 0})));
+  const Pose steady = by_hand().fuse(Pose::Identity(), near, predicted(test::pose_of({0, 0, 0}, {0.4, 0, 0})));
   EXPECT_NEAR(steady.translation().x(), 0.1, 1e-9) << "never more than in full";
 }
 
 // An acceleration leaves the predicted place by t²: after half the time the velocity is sixteen times as informative.
 TEST(Inertia, KnowsLessTheLongerItWaits) {
   Matrix6d sum = Matrix6d::Zero();
-  by_hand(kGaussian).fuse(Pose::Identity(), sum, predicted(Pose::Identity(), 0.5));
+  by_hand().fuse(Pose::Identity(), sum, predicted(Pose::Identity(), 0.5));
   EXPECT_TRUE(sum.isApprox(information(256.0, 16.0), 1e-9));
 }
 
@@ -90,7 +89,7 @@ TEST(Inertia, NoTimeIsNoReasonToMove) {
   const Pose found = test::pose_of({0.1, 0, 0}, {1, 2, 3});
   for (const double elapsed_s : {1e-200, 0.0}) {
     Matrix6d sum = information(48.0, 3.0);
-    EXPECT_TRUE(by_hand(4.0).fuse(found, sum, predicted(Pose::Identity(), elapsed_s)).isApprox(found, 0.0));
+    EXPECT_TRUE(by_hand().fuse(found, sum, predicted(Pose::Identity(), elapsed_s)).isApprox(found, 0.0));
     EXPECT_TRUE(sum.isApprox(information(48.0, 3.0), 0.0));
   }
 }

@@ -19,12 +19,6 @@ constexpr double kNoDepth = 0.0;
 /// of them counts.
 class StandingCameraTest : public testing::Test {
  protected:
-  StandingCameraTest() {
-    camera_.rest_px = 0.3;
-    camera_.begins_share = 0.9;
-    camera_.continues_share = 0.1;
-  }
-
   /// @param moved_px  since the last frame
   void add(std::size_t count, double moved_px, double depth_m, float trust = 1.0f) {
     const std::size_t first = matches_.size();
@@ -67,6 +61,9 @@ TEST_F(StandingCameraTest, StandsWhereAllIsAtRest) {
   add(100, 0.0, 2.0);
   EXPECT_TRUE(stands(false));
   EXPECT_TRUE(stands(true));
+  camera_.is_enabled = false;
+  EXPECT_FALSE(stands(false));
+  EXPECT_FALSE(stands(true));
 }
 
 TEST_F(StandingCameraTest, WithoutMatchesNothingIsKnown) {

@@ -37,13 +37,7 @@ Regions regions_of(const Matches& matches) {
 SupportMotion policy() {
   SupportMotion policy;
   policy.options.max_trials = 100;
-  policy.options.past_preference = 0.35;
-  policy.options.fewest_matches = 6;
-  policy.options.least_support = 0.08;
-  policy.options.least_pixel_sigma = 0.1;
-  policy.options.creep_gain = 60.0;
   policy.constraints.pixel_sigma = 1.0;
-  policy.standing.rest_px = 0.3;
   return policy;
 }
 
@@ -223,10 +217,11 @@ TEST(SupportMotion, TheMeasuredNoiseIsHeldWithinLimits) {
   EXPECT_EQ(estimate(noisy_scene(1, 0.0), prior).pixel_sigma, 0.1);
   EXPECT_EQ(estimate(noisy_scene(1, 2.0), prior).pixel_sigma, 1.0);
   SupportMotion tight = policy();
-  tight.options.least_pixel_sigma = 0.02;
   tight.constraints.pixel_sigma = 0.5;
-  EXPECT_EQ(estimate(noisy_scene(1, 0.0), prior, tight).pixel_sigma, 0.02);
+  EXPECT_EQ(estimate(noisy_scene(1, 0.0), prior, tight).pixel_sigma, 0.1);
   EXPECT_EQ(estimate(noisy_scene(1, 0.6), prior, tight).pixel_sigma, 0.5);
+  tight.measures_noise = false;
+  EXPECT_EQ(estimate(noisy_scene(1, 0.0), prior, tight).pixel_sigma, 0.5) << "as assumed";
   EXPECT_EQ(estimate(Matches()).pixel_sigma, 0.0) << "nobody says";
 }
 
@@ -345,10 +340,12 @@ MotionPrior velocity_near(const Pose& truth, std::uint64_t seed) {
   return {std::nullopt, false, test::pose_of(turn, shift) * truth, 1.0 / 30.0};
 }
 
-/// Corners of these scenes are wrong independently of each other.
+/// Corners of these scenes are wrong independently of each other, not twelve as one: what the velocity says has to
+/// count a twelfth.
 SupportMotion with_inertia() {
   SupportMotion motion = policy();
-  motion.inertia.correlated = 1.0;
+  motion.inertia.acceleration_m_s2 *= std::sqrt(12.0);
+  motion.inertia.angular_acceleration_rad_s2 *= std::sqrt(12.0);
   return motion;
 }
 

@@ -5,11 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/policies.hpp"
@@ -127,22 +131,19 @@ std::size_t visited(Group&& group) {
 // A field that is added to a stage and forgotten in the file makes this fail.
 TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(FrameCheck()), field_count<FrameCheck::Options>());
-  EXPECT_EQ(visited(GuardedDepth()), field_count<GuardedDepth::Options>());
   EXPECT_EQ(visited(MaskPrediction()), field_count<MaskPrediction::Options>());
   EXPECT_EQ(visited(BoxPrior()), field_count<BoxPrior::Options>());
-  EXPECT_EQ(visited(PropagatedPrior()), visited(ForegroundPrior()) + field_count<PropagatedPrior::Carrying>());
+  EXPECT_EQ(visited(PropagatedPrior()), visited(BoxPrior()) + field_count<PropagatedPrior::Carrying>());
   EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());
   EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>());
   EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
-  EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 2) << "guard and surfaces";
-  EXPECT_EQ(visited(PatchSearch()), field_count<PatchSearch>() - 1) << "the warp is none";
-  EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>());
+  EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 1) << "surfaces";
+  EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>() - 1) << "the guard is none";
   EXPECT_EQ(visited(EpipolarMotion()), field_count<EpipolarMotion::Options>());
   EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
-  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>());
-  EXPECT_EQ(visited(StandingCamera()), field_count<StandingCamera>());
+  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>() - 1) << "the surfaces' weight is none";
   EXPECT_EQ(visited(Inertia()), field_count<Inertia>());
-  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 3) << "constraints, standing, inertia";
+  EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints, inertia";
   EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
   EXPECT_EQ(visited(SightingScore()), field_count<SightingScore::Options>());
   EXPECT_EQ(visited(MeanGate()), field_count<MeanGate::Options>());
@@ -172,12 +173,12 @@ TEST_F(OptionsFile, DepthNoiseIsAModelAndItsParameters) {
 }
 
 TEST_F(OptionsFile, SeedsKeepTheirSixtyFourBits) {
-  filter.classifier.options.seed = 0xfedc'ba98'7654'3210u;
+  filter.ego_motion.options.seed = 0xfedc'ba98'7654'3210u;
   const std::filesystem::path path = folder.path() / "seed.yaml";
   write_options(path, filter);
   FrameFilter<> restored(any_camera());
   read_options(path, restored);
-  EXPECT_EQ(restored.classifier.options.seed, 0xfedc'ba98'7654'3210u);
+  EXPECT_EQ(restored.ego_motion.options.seed, 0xfedc'ba98'7654'3210u);
 }
 
 TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
@@ -191,9 +192,10 @@ TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
             name + ": gate.false_positive_rate is not a number, expected a number above 0");
   EXPECT_EQ(error("gate:\n   false_positive_rate: 0.\n"),
             name + ": gate.false_positive_rate is 0.000000, expected a number above 0");
-  EXPECT_EQ(error("gate:\n   trusted: -0.5\n"),
-            name + ": gate.trusted is -0.500000, expected a number that is not negative");
-  EXPECT_EQ(error("gate:\n   decay: .Nan\n"), name + ": gate.decay is not finite, expected a number above 0");
+  EXPECT_EQ(error("scorer:\n   depth_sigmas: -0.5\n"),
+            name + ": scorer.depth_sigmas is -0.500000, expected a number that is not negative");
+  EXPECT_EQ(error("scorer:\n   pixel_sigma: .Nan\n"),
+            name + ": scorer.pixel_sigma is not finite, expected a number above 0");
   EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 0\n"),
             name + ": matcher.corners.cell_px is 0, expected a number above 0");
   EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 24.5\n"),
@@ -206,9 +208,134 @@ TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
             name + ": depth_noise.baseline_m is unknown, expected one of model, constant_m, per_metre, scale");
 }
 
+// ---- Options of earlier versions ----
+
+/// YAML with one option, whose value is 1.
+std::string yaml_of(std::string_view name) {
+  std::string text;
+  for (std::string indent;; indent += "   ") {
+    const std::size_t dot = name.find('.');
+    text += indent + std::string(name.substr(0, dot)) + (dot == std::string_view::npos ? ": 1\n" : ":\n");
+    if (dot == std::string_view::npos) return text;
+    name.remove_prefix(dot + 1);
+  }
+}
+
+/// All names of a filter's options, with their stages.
+struct Names {
+  std::vector<std::string> found;
+  std::string path;
+  template <class T>
+  void operator()(const char* name, T& value) {
+    if constexpr (!std::is_arithmetic_v<T>) {
+      if constexpr (has_options<T, Names>::value) {
+        const std::string outer = path;
+        path += std::string(name) + '.';
+        each_option(value, *this);
+        path = outer;
+      }
+    } else {
+      found.push_back(path + name);
+    }
+  }
+  template <class T>
+  void positive(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T>
+  void any(const char* name, T& value) {
+    (*this)(name, value);
+  }
+  template <class T, class... Words>
+  void choice(const char* name, T&, Words...) {
+    found.push_back(path + name);
+  }
+};
+template <class Policies>
+std::vector<std::string> names_of(FrameFilter<Policies>& filter) {
+  Names names;
+  each_option(filter, names);
+  return names.found;
+}
+
+TEST_F(OptionsFile, ANameThatIsGoneIsRefusedWithWhatReplacedIt) {
+  const std::vector<std::string> names = names_of(filter);
+  const std::string before = options_as_yaml(filter);
+  for (const ReplacedOption& option : kReplacedOptions) {
+    const std::string name(option.name), replacement(option.replacement);
+    EXPECT_EQ(error(yaml_of(name)), (folder.path() / "options.yaml").string() +
+                                        ": 1 option is gone; delete or rename\n  " + name + ": " + replacement);
+    EXPECT_EQ(std::count(names.begin(), names.end(), name), 0) << name << " is not gone";
+    if (replacement.rfind("fixed", 0) != 0) {
+      EXPECT_EQ(std::count(names.begin(), names.end(), replacement), 1) << replacement << " is no option";
+    }
+  }
+  EXPECT_EQ(options_as_yaml(filter), before);
+}
+
+TEST_F(OptionsFile, OfAnOldFileEachNameThatIsGoneIsListed) {
+  const std::string found = error(
+      "gate:\n   false_positive_rate: 0.05\n   decay: 0.8\nmemory:\n   persistence: 0.7\n   same_surface:\n"
+      "      constant_m: 0.06\n      per_square_m: 0.0076\n");
+  EXPECT_EQ(found.substr(found.find(": ")),
+            ": 4 options are gone; delete or rename\n  gate.decay: fixed at 0.8: nats, measured with the whole filter\n"
+            "  memory.persistence: memory.log_odds_decay_s\n"
+            "  memory.same_surface.constant_m: fixed at 0.06: roughness of a surface\n"
+            "  memory.same_surface.per_square_m: fixed at 0.0076: four sigmas of a Kinect's depth");
+  EXPECT_EQ(filter.gate.options.false_positive_rate, TailGate::Options{}.false_positive_rate);
+  EXPECT_NE(error("memory:\n   same_surface:\n      constant_m: 1.\n      slope: 1.\n").find("same_surface is unknown"),
+            std::string::npos)
+      << "one that never was is no old option";
+}
+
+// What `write_options` left behind before options were fixed: every line of it is either read or listed.
+TEST_F(OptionsFile, ACompleteFileOfBeforeIsRefusedLineByLine) {
+  const std::vector<std::string> names = names_of(filter);
+  std::string text;
+  std::vector<std::string> open;  // the groups of the line before
+  std::vector<std::string> all(names);
+  for (const ReplacedOption& option : kReplacedOptions) all.emplace_back(option.name);
+  std::sort(all.begin(), all.end());
+  for (const std::string& name : all) {
+    if (name == "depth_noise.model") continue;  // not a number
+    std::vector<std::string> groups;
+    std::size_t begin = 0;
+    for (std::size_t dot; (dot = name.find('.', begin)) != std::string::npos; begin = dot + 1)
+      groups.push_back(name.substr(begin, dot - begin));
+    std::size_t common = 0;
+    while (common < std::min(groups.size(), open.size()) && groups[common] == open[common]) ++common;
+    for (; common < groups.size(); ++common) text += std::string(3 * common, ' ') + groups[common] + ":\n";
+    text += std::string(3 * groups.size(), ' ') + name.substr(begin) + ": 1\n";
+    open = groups;
+  }
+  const std::string found = error(text);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(found.begin(), found.end(), '\n')), kReplacedOptions.size()) << found;
+  for (const ReplacedOption& option : kReplacedOptions)
+    EXPECT_NE(found.find("\n  " + std::string(option.name) + ": "), std::string::npos) << option.name;
+}
+
+// A set whose stages still have them reads them: the paper's K-means has a seed, its matcher a border.
+TEST_F(OptionsFile, WhatAnotherSetStillHasIsNotGoneThere) {
+  FrameFilter<PaperPolicies> paper(any_camera());
+  read_options(file("classifier:\n   seed: 7\n   max_iterations: 5\n"), paper);
+  EXPECT_EQ(paper.classifier.options.seed, 7u);
+}
+
+// More than anyone can set by hand are none that users need (docs/tuning.md lists them).
+TEST(StageOptions, DefaultPoliciesHaveFortyAtTheMost) {
+  FrameFilter<> filter(any_camera());
+  for (const AnyDepthNoise& noise :
+       {AnyDepthNoise(KinectNoise{}), AnyDepthNoise(StereoNoise{}), AnyDepthNoise(TimeOfFlightNoise{})}) {
+    filter.depth_noise = noise;
+    EXPECT_LE(names_of(filter).size(), 40u) << "with depth noise " << noise.model.index();
+    EXPECT_GE(names_of(filter).size(), 30u) << "the visitor sees groups as well";
+  }
+}
+
 TEST_F(OptionsFile, NothingChangesWhereAnythingIsWrong) {
   const std::string before = options_as_yaml(filter);
-  EXPECT_NE(error("gate:\n   decay: 2.\ndepth_noise:\n   model: tof\nmemory:\n   minority: -1.\n"), "");
+  EXPECT_NE(error("scorer:\n   depth_sigmas: 2.\ndepth_noise:\n   model: tof\nmemory:\n   suspicion_rise_s: -1.\n"),
+            "");
   EXPECT_EQ(options_as_yaml(filter), before);
 }
 

@@ -22,7 +22,6 @@ class ForegroundPriorTest : public testing::Test {
   ForegroundPriorTest() {
     depth_.setTo(3.0f);
     depth_(cv::Rect(65, 20, 30, 80)).setTo(1.5f);
-    prior_.reach_m = 0.3;
     prior_.detections = {{{50, 20, 60, 80}, Mobility::dynamic, 1.0f}};
   }
 
@@ -39,8 +38,8 @@ class ForegroundPriorTest : public testing::Test {
 
 TEST_F(ForegroundPriorTest, TheMiddleOfABoxIsTheThing) {
   const Detection person = only(depth_);
-  EXPECT_NEAR(person.nearest_m, 1.2, 1e-6);
-  EXPECT_NEAR(person.farthest_m, 1.8, 1e-6);
+  EXPECT_NEAR(person.nearest_m, 1.4, 1e-6);
+  EXPECT_NEAR(person.farthest_m, 1.6, 1e-6);
   EXPECT_TRUE(person.holds({80, 60}, 1.5));
   EXPECT_FALSE(person.holds({55, 60}, 3.0)) << "the wall past a shoulder";
   EXPECT_FALSE(person.holds({80, 60}, 0.9)) << "what stands before the person";
@@ -51,7 +50,6 @@ TEST_F(ForegroundPriorTest, TheMiddleOfABoxIsTheThing) {
 // From 1.3 m at the head to 1.7 m at the feet: 0.005 m a row, half way down 1.5 m. The wall at 3 m shows between the
 // legs, in the lowest fifth, and is not asked.
 TEST_F(ForegroundPriorTest, APersonWhoIsLookedDownOnLeans) {
-  prior_.reach_m = 0.1;
   for (int v = 20; v < 100; ++v) depth_(cv::Rect(65, v, 30, 1)).setTo(1.3f + 0.005f * (static_cast<float>(v) - 20.0f));
   depth_(cv::Rect(68, 84, 24, 16)).setTo(3.0f);
   const Detection person = only(depth_);
@@ -67,7 +65,7 @@ TEST_F(ForegroundPriorTest, APersonWhoIsLookedDownOnLeans) {
 TEST_F(ForegroundPriorTest, ADepthImageOfAnotherSizeHasTheSameFieldOfView) {
   cv::Mat half(60, 80, CV_32FC1, cv::Scalar(3.0f));
   half(cv::Rect(33, 10, 14, 40)).setTo(1.5f);
-  EXPECT_NEAR(only(half).farthest_m, 1.8, 1e-6);
+  EXPECT_NEAR(only(half).farthest_m, 1.6, 1e-6);
 }
 
 TEST_F(ForegroundPriorTest, WithoutEnoughDepthTheWholeBoxIsTheThing) {

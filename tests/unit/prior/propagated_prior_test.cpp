@@ -30,11 +30,6 @@ constexpr double kFrame_s = 0.1, kThing_m = 1.5, kWall_m = 3.0, kFocal_px = 100.
 /// Features lie on a grid of 6 pixels.
 class PropagatedPriorTest : public testing::Test {
  protected:
-  PropagatedPriorTest() {
-    prior_.carrying.growth_per_s = 0.0;  // the place of a box is easier to tell
-    prior_.reach_m = 0.3;
-  }
-
   Detection seen(const Box& box, float confidence = 0.8f) const { return {box, Mobility::dynamic, confidence}; }
   double time_s(int frame) const { return kFrame_s * frame; }
   double now_s() const { return time_s(frame_); }
@@ -89,6 +84,12 @@ class PropagatedPriorTest : public testing::Test {
   }
 
   void expect_at_truth(const Box& box, float tolerance_px = 0.01f) const { expect_box(box, truth_, tolerance_px); }
+  /// Each side of an unseen box goes out by 0.2 of its size in a second.
+  void expect_grown_from_truth(const Box& box, double unseen_s) const {
+    const auto growth = static_cast<float>(0.2 * unseen_s);
+    expect_box(box, {truth_.x - growth * truth_.width, truth_.y - growth * truth_.height,
+                     truth_.width * (1 + 2 * growth), truth_.height * (1 + 2 * growth)});
+  }
   static void expect_box(const Box& box, const Box& expected, float tolerance_px = 0.01f) {
     EXPECT_NEAR(box.x, expected.x, tolerance_px);
     EXPECT_NEAR(box.y, expected.y, tolerance_px);
@@ -113,7 +114,7 @@ TEST_F(PropagatedPriorTest, WhatIsHandedOverIsOfTheComingFrameAsItIs) {
   ASSERT_EQ(regions.detections.size(), 2u);
   expect_box(regions.detections[0].box, truth_, 0.0f);
   EXPECT_EQ(regions.detections[0].confidence, 0.8f);
-  EXPECT_NEAR(regions.detections[0].farthest_m, 1.8, 1e-6) << "with the depth of the thing";
+  EXPECT_NEAR(regions.detections[0].farthest_m, 1.6, 1e-6) << "with the depth of the thing";
   EXPECT_EQ(regions.detections[1].mobility, Mobility::fixed);
   EXPECT_TRUE(prior_.detections.empty()) << "they were of that frame, not of the next";
 }
@@ -131,7 +132,8 @@ TEST_F(PropagatedPriorTest, AThingIsCarriedByTheFeaturesOnIt) {
   for (int i = 0; i < 8; ++i) {
     const Regions regions = next(change);
     ASSERT_EQ(regions.detections.size(), 1u);
-    expect_at_truth(regions.detections[0].box);  // the velocity was learnt in the frame of the detection
+    // The velocity was learnt in the frame of the detection.
+    expect_grown_from_truth(regions.detections[0].box, (i + 1) * kFrame_s);
     expect_at_truth(only_thing().detection.box);
   }
 }
@@ -224,26 +226,24 @@ TEST_F(PropagatedPriorTest, WhatComesNearerGrows) {
 }
 
 TEST_F(PropagatedPriorTest, TooFewFeaturesCarryNothing) {
-  prior_.carrying.fewest_features = 1000;
+  truth_ = {100, 80, 8, 14};  // holds three features of the grid, before and after the step
   prior_.detections = {seen(truth_)};
   next();
-  next({{6, 0}, {0, 0}});
-  expect_box(only_thing().detection.box, {100, 80, 40, 60});
+  next({{3, 0}, {0, 0}});
+  expect_box(only_thing().detection.box, {100, 80, 8, 14});
 }
 
 TEST_F(PropagatedPriorTest, WhatIsNotSeenGrowsUncertain) {
-  prior_.carrying.growth_per_s = 0.2;
-  prior_.carrying.half_life_s = 0.5;
   prior_.detections = {seen(truth_, 0.8f)};
   next();
   Regions regions;
   for (int i = 0; i < 5; ++i) regions = next();
-  // Half a second: each side a tenth of the size farther out, half of the confidence.
+  // Half a second: each side a tenth of the size farther out, half of a half-life for the confidence.
   ASSERT_EQ(regions.detections.size(), 1u);
   expect_box(regions.detections[0].box, {96, 74, 48, 72}, 1e-3f);
-  EXPECT_NEAR(regions.detections[0].confidence, 0.4f, 1e-5f);
+  EXPECT_NEAR(regions.detections[0].confidence, 0.8f / std::sqrt(2.0f), 1e-5f);
   expect_at_truth(only_thing().detection.box);  // only what is handed on grows
-  prior_.options.lowest_confidence = 0.5f;
+  prior_.options.lowest_confidence = 0.55f;     // 0.8 · 2^−0.6 is 0.53
   EXPECT_TRUE(next().detections.empty()) << "doubted";
   prior_.detections = {seen(truth_, 0.8f)};
   expect_box(next().detections.at(0).box, truth_, 0.0f);
@@ -259,17 +259,16 @@ TEST_F(PropagatedPriorTest, WhatIsNotSeenForLongIsForgotten) {
 }
 
 TEST_F(PropagatedPriorTest, WhatIsMissedTooOftenIsForgotten) {
-  prior_.carrying.most_missed = 2;
   prior_.detections = {seen(truth_)};
   next();
   for (int i = 0; i < 3; ++i) EXPECT_EQ(next().detections.size(), 1u) << "no answer says nothing";
-  for (int missed = 1; missed <= 2; ++missed) {
+  for (int missed = 1; missed <= 8; ++missed) {
     prior_.detected(time_s(frame_ + 1), {});
     EXPECT_EQ(next().detections.size(), 1u);
     EXPECT_EQ(only_thing().missed, missed);
   }
   prior_.detected(time_s(frame_ + 1), {});
-  EXPECT_TRUE(next().detections.empty()) << "the detector looked three times and saw nothing";
+  EXPECT_TRUE(next().detections.empty()) << "the detector looked nine times and saw nothing";
 }
 
 TEST_F(PropagatedPriorTest, OneOfTwoIsMissed) {
@@ -280,7 +279,7 @@ TEST_F(PropagatedPriorTest, OneOfTwoIsMissed) {
   const Regions regions = next();
   ASSERT_EQ(regions.detections.size(), 2u);
   expect_box(regions.detections[0].box, other);  // what was seen comes first
-  expect_at_truth(regions.detections[1].box);
+  expect_grown_from_truth(regions.detections[1].box, kFrame_s);
   ASSERT_EQ(prior_.things().size(), 2u);
   EXPECT_EQ(prior_.things()[0].missed, 1);
   EXPECT_EQ(prior_.things()[1].missed, 0);
@@ -321,7 +320,7 @@ TEST_F(PropagatedPriorTest, ALateAnswerIsCarriedFromItsFrame) {
   EXPECT_NEAR(only_thing().depth_m(), kThing_m, 1e-6) << "from the coarse depth of that frame";
   const Regions regions = next(change);
   ASSERT_EQ(regions.detections.size(), 1u);
-  expect_at_truth(regions.detections[0].box);
+  expect_grown_from_truth(regions.detections[0].box, now_s() - then_s);
 }
 
 TEST_F(PropagatedPriorTest, ALateAnswerRefreshesWhatIsCarried) {
@@ -412,8 +411,8 @@ TEST_F(PropagatedPriorTest, DepthSeparatesACarriedThingFromWhatIsBehindAndBefore
   EXPECT_TRUE(regions.detections.at(0).holds({truth_.x + 20, truth_.y + 30}, kThing_m));
   occluder_m_ = 0.6;
   const Regions hidden = next();
-  EXPECT_NEAR(hidden.detections.at(0).nearest_m, 1.2, 1e-6) << "something passes before it: its depth stays";
-  EXPECT_NEAR(hidden.detections.at(0).farthest_m, 1.8, 1e-6);
+  EXPECT_NEAR(hidden.detections.at(0).nearest_m, 1.4, 1e-6) << "something passes before it: its depth stays";
+  EXPECT_NEAR(hidden.detections.at(0).farthest_m, 1.6, 1e-6);
 }
 
 TEST_F(PropagatedPriorTest, AnEdgeAtThePicturesBorderStaysThere) {

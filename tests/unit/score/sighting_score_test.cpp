@@ -19,23 +19,16 @@ namespace {
 
 static_assert(is_scorer<SightingScore, Camera>::value);
 
-/// One feature straight ahead at 2 m; a camera of 500 px; round options.
+/// One feature straight ahead at 2 m; a camera of 500 px. A patch that looks just alike has half of 2 px, so that σ = 1
+/// px.
 class SightingScoreTest : public testing::Test {
  protected:
   SightingScoreTest() {
-    scorer_.options.pixel_sigma = 1.0;
-    scorer_.options.alike_share = 1.0;
-    scorer_.options.motion_sigmas = 2.5;
-    scorer_.options.least_noise = 0.3;
-    scorer_.options.drift_px_per_s = 2.0;
-    scorer_.options.depth_sigmas = 1.0;
-    scorer_.options.depth_floor_m = 0.0;
-    scorer_.options.dissimilarity_scale = 0.1;
+    scorer_.options.pixel_sigma = 2.0;
+    scorer_.options.depth_sigmas = 0.92;
     scorer_.options.most_from_place = 8.0;
     scorer_.options.most_from_look = 6.0;
     scorer_.options.most_from_depth = 7.0;
-    scorer_.options.expected_patch = 1.5;
-    scorer_.options.expected_depth = 1.0;
     const std::vector<Vector2f> pixel = {{320, 240}};
     matches_.begin(pixel);
     matches_.current.undistorted[0] = {320, 240};
@@ -84,20 +77,19 @@ class SightingScoreTest : public testing::Test {
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kRounding = 1e-4f;
 
-// 2 px away is d² = 4, two nats; 0.05 unlike at a scale of 0.1 is half a nat; 1.5 is expected.
+// 2 px away is d² = 4, two nats; 0.12 unlike is one nat, and then σ = 2 px; 2.5 nats are expected.
 TEST_F(SightingScoreTest, PlaceAndLookAddUp) {
-  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding);
-  EXPECT_NEAR(evidence({0, 2}, 0.05f), 2.0f + 0.5f - 1.5f, kRounding);
-  EXPECT_NEAR(evidence({0, 0}, 0.0f), -1.5f, kRounding) << "a perfect sighting speaks for standing still";
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 2.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 4}, 0.12f), 2.0f + 1.0f - 2.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 0.0f), -2.5f, kRounding) << "a perfect sighting speaks for standing still";
 }
 
-// An alike patch has half of the noise, one that is half as unlike as the scale three quarters: 2 px are then d² = 16
-// and d² = (2 / 0.75)² = 7.11.
+// An alike patch has half of the noise, 1 px, one that is half as unlike as the scale of 0.12 three quarters, 1.5 px: 2
+// px are then d² = 4, d² = (2 / 1.5)² = 16 / 9, and d² = 1.
 TEST_F(SightingScoreTest, APatchThatLooksAlikeIsLocatedBetter) {
-  scorer_.options.alike_share = 0.5;
-  EXPECT_NEAR(evidence({2, 0}, 0.0f), 8.0f - 1.5f, kRounding);
-  EXPECT_NEAR(evidence({2, 0}, 0.05f), 0.5f * 64.0f / 9.0f + 0.5f - 1.5f, kRounding);
-  EXPECT_NEAR(evidence({2, 0}, 0.1f), 2.0f + 1.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 2.5f, kRounding);
+  EXPECT_NEAR(evidence({2, 0}, 0.06f), 8.0f / 9.0f + 0.5f - 2.5f, kRounding);
+  EXPECT_NEAR(evidence({2, 0}, 0.12f), 0.5f + 1.0f - 2.5f, kRounding);
 }
 
 // The older camera stood 0.1 m to the left: a point at 2 m is seen 500 · 0.1 / 2 = 25 px to the right there, and a
@@ -105,89 +97,88 @@ TEST_F(SightingScoreTest, APatchThatLooksAlikeIsLocatedBetter) {
 // + 2.5²) = 3.448, across it 25.
 TEST_F(SightingScoreTest, ASupposedDepthLeavesTheDistanceFromTheEpipolarLine) {
   reference_from_current_.translation().x() = 0.1;
-  EXPECT_NEAR(evidence({25, 3}, 0.0f), 4.5f - 1.5f, kRounding) << "a known depth: 3 px";
+  EXPECT_NEAR(evidence({25, 3}, 0.0f), 4.5f - 2.5f, kRounding) << "a known depth: 3 px";
   inverse_depth_sigma_ = 0.05;
-  EXPECT_NEAR(evidence({30, 0}, 0.0f), 0.5f * 25.0f / 7.25f - 1.5f, kRounding);
-  EXPECT_NEAR(evidence({25, 3}, 0.0f), 4.5f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({30, 0}, 0.0f), 0.5f * 25.0f / 7.25f - 2.5f, kRounding);
+  EXPECT_NEAR(evidence({25, 3}, 0.0f), 4.5f - 2.5f, kRounding);
   inverse_depth_sigma_ = 1e6;
-  EXPECT_NEAR(evidence({90, 3}, 0.0f), 4.5f - 1.5f, 1e-3f) << "all but unknown: only the row counts";
+  EXPECT_NEAR(evidence({90, 3}, 0.0f), 4.5f - 2.5f, 1e-3f) << "all but unknown: only the row counts";
 }
 
-// σ = √(0.03² + 0.04²) = 0.05 m; 0.1 m of difference is d² = 4, two nats, of which one is expected.
+// σ = 0.92 √(0.03² + 0.04²) + 0.004 = 0.05 m; 0.1 m of difference is d² = 4, two nats, of which one is expected.
 TEST_F(SightingScoreTest, DepthCountsInItsOwnNoise) {
-  EXPECT_NEAR(evidence({0, 0}, 0.0f, 2.1f), -1.5f + 2.0f - 1.0f, kRounding);
-  EXPECT_NEAR(evidence({0, 0}, 0.0f, 1.9f), -1.5f + 2.0f - 1.0f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 0.0f, 2.1f), -2.5f + 2.0f - 1.0f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 0.0f, 1.9f), -2.5f + 2.0f - 1.0f, kRounding);
   EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 2.0f - 1.0f, kRounding) << "depth alone, where no patch could be compared";
-  scorer_.options.depth_sigmas = 2.0;  // σ = 0.1: half a nat
+  scorer_.options.depth_sigmas = 1.92;  // σ = 0.1: half a nat
   EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 0.5f - 1.0f, kRounding);
-  scorer_.options.depth_floor_m = 0.1;  // σ = 0.2: an eighth
-  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 0.125f - 1.0f, kRounding);
+  scorer_.options.depth_sigmas = 0.0;  // 4 mm are left
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.004f), 0.5f - 1.0f, 1e-3f);
 }
 
 TEST_F(SightingScoreTest, EvidenceSaturates) {
-  EXPECT_NEAR(evidence({100, 0}, 0.0f), 8.0f - 1.5f, kRounding);
-  EXPECT_NEAR(evidence({0, 0}, 2.0f), 6.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({100, 0}, 0.0f), 8.0f - 2.5f, kRounding);
+  EXPECT_NEAR(evidence({0, 0}, 2.0f), 6.0f - 2.5f, kRounding);
   EXPECT_NEAR(evidence({0, 0}, kNaN, 6.0f), 7.0f - 1.0f, kRounding);
 }
 
-// σ = 1 + 2 · 0.5 = 2 px after half a second: 4 px away is d² = 4.
+// σ = 1 + 1 · 1 = 2 px after a second: 4 px away is d² = 4.
 TEST_F(SightingScoreTest, TheChainedPoseDriftsWithTime) {
-  EXPECT_NEAR(evidence({4, 0}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, kRounding);
+  EXPECT_NEAR(evidence({4, 0}, 0.0f, 0.0f, 1.0), 2.0f - 2.5f, kRounding);
 }
 
 // σ_ω = 0.002 rad and σ_v = 0.004 m at 2 m are each 1 px at f = 500: the variance is 1 + 1 + 1, 6 px² / 3 / 2 = 1 nat.
 TEST_F(SightingScoreTest, ThePosesOwnErrorIsNoEvidence) {
   motion_.covariance.topLeftCorner<3, 3>() = 4e-6 * Matrix3d::Identity();
   motion_.covariance.bottomRightCorner<3, 3>() = 16e-6 * Matrix3d::Identity();
-  EXPECT_NEAR(evidence({std::sqrt(6.0f), 0}, 0.0f), 1.0f - 1.5f, 1e-3f);
+  EXPECT_NEAR(evidence({std::sqrt(6.0f), 0}, 0.0f), 1.0f - 2.5f, 1e-3f);
 }
 
 // ---- The motion says how exact its matches are ----
 
-// 2.5 times 0.4 px are the 1 px of the options: no more is ever assumed.
+// 3.2 times 0.625 px are the 2 px of the options: no more is ever assumed.
 TEST_F(SightingScoreTest, AnOrdinaryMotionLeavesTheNoiseAsItIs) {
-  for (const double pixel_sigma : {0.0, 0.4, 0.7, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double pixel_sigma : {0.0, 0.625, 0.7, 100.0, std::numeric_limits<double>::quiet_NaN()}) {
     motion_.pixel_sigma = pixel_sigma;
-    EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding) << pixel_sigma;
-    EXPECT_NEAR(evidence({4, 0}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, kRounding) << pixel_sigma;
+    EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 2.5f, kRounding) << pixel_sigma;
+    EXPECT_NEAR(evidence({4, 0}, 0.0f, 0.0f, 1.0), 2.0f - 2.5f, kRounding) << pixel_sigma;
   }
 }
 
-// 2.5 · 0.2 = 0.5 of the noise, which is 1 px, or 1 + 2 · 0.5 = 2 px after half a second: half of the displacement is
+// 3.2 · 0.3125 = 1 px is half of the noise, which is 1 px, or 1 + 1 = 2 px after a second: half of the displacement is
 // worth as much.
 TEST_F(SightingScoreTest, WithExactMatchesHalfOfTheDisplacementSaysAsMuch) {
-  motion_.pixel_sigma = 0.2;
-  EXPECT_NEAR(evidence({1, 0}, 0.0f), 2.0f - 1.5f, kRounding) << "2 px without";
-  EXPECT_NEAR(evidence({0, 1.5f}, 0.05f), 4.5f + 0.5f - 1.5f, kRounding) << "3 px without; the look counts as ever";
-  EXPECT_NEAR(evidence({2, 0}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, kRounding) << "4 px without: the drift shrinks, too";
+  motion_.pixel_sigma = 0.3125;
+  EXPECT_NEAR(evidence({1, 0}, 0.0f), 2.0f - 2.5f, kRounding) << "2 px without";
+  EXPECT_NEAR(evidence({0, 1.5f}, 0.06f), 2.0f + 0.5f - 2.5f, kRounding) << "3 px without; the look counts as ever";
+  EXPECT_NEAR(evidence({2, 0}, 0.0f, 0.0f, 1.0), 2.0f - 2.5f, kRounding) << "4 px without: the drift shrinks, too";
   EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 2.0f - 1.0f, kRounding) << "a depth has no pixels";
-  scorer_.options.alike_share = 0.5;  // and half of that for a patch that looks just alike
-  EXPECT_NEAR(evidence({0.5f, 0}, 0.0f), 2.0f - 1.5f, kRounding);
 }
 
-// A noise of pixel_sigma = 2 px is what the measured one is compared with: 2.5 · 0.4 / 2 is half of it, 1 px.
+// A noise of pixel_sigma = 4 px is what the measured one is compared with: 3.2 · 0.625 / 4 is half of it, 1 px where
+// patches look alike.
 TEST_F(SightingScoreTest, TheMeasuredNoiseReplacesTheSupposed) {
-  scorer_.options.pixel_sigma = 2.0;
-  motion_.pixel_sigma = 0.4;
-  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.5f, kRounding);
+  scorer_.options.pixel_sigma = 4.0;
+  motion_.pixel_sigma = 0.625;
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 2.5f, kRounding);
 }
 
-// 2.5 · 0.12 is the floor of 0.3: 0.6 px are d² = 4, however exact the matches are.
+// 3.2 · 0.1875 / 2 is the floor of 0.3: 0.6 px are d² = 4, however exact the matches are.
 TEST_F(SightingScoreTest, NoMatchesAreSoExactThatNothingIsLeft) {
-  for (const double pixel_sigma : {0.12, 0.05, 1e-6}) {
+  for (const double pixel_sigma : {0.1875, 0.05, 1e-6}) {
     motion_.pixel_sigma = pixel_sigma;
-    EXPECT_NEAR(evidence({0.6f, 0}, 0.0f), 2.0f - 1.5f, 1e-3f) << pixel_sigma;
-    EXPECT_NEAR(evidence({0, 1.2f}, 0.0f, 0.0f, 0.5), 2.0f - 1.5f, 1e-3f) << pixel_sigma;
+    EXPECT_NEAR(evidence({0.6f, 0}, 0.0f), 2.0f - 2.5f, 1e-3f) << pixel_sigma;
+    EXPECT_NEAR(evidence({0, 1.2f}, 0.0f, 0.0f, 1.0), 2.0f - 2.5f, 1e-3f) << pixel_sigma;
   }
 }
 
 TEST_F(SightingScoreTest, OneObjectionAloneIsHalfAnObjection) {
-  seen({4, 0}, 0.0f);  // 8 nats less 1.5
-  EXPECT_NEAR(score(), 0.7f * 6.5f, kRounding) << "what one frame alone saw counts less";
+  seen({4, 0}, 0.0f);  // 8 nats less 2.5
+  EXPECT_NEAR(score(), 0.7f * 5.5f, kRounding) << "what one frame alone saw counts less";
   seen({0, 0}, 0.0f);
-  EXPECT_NEAR(score(), 0.5f * (6.5f - 1.5f), kRounding);
+  EXPECT_NEAR(score(), 0.5f * (5.5f - 2.5f), kRounding);
   seen({2, 0}, 0.0f);
-  EXPECT_NEAR(score(), 0.5f * (6.5f + 0.5f), kRounding) << "the two that object most";
+  EXPECT_NEAR(score(), 0.5f * (5.5f - 0.5f), kRounding) << "the two that object most";
 }
 
 TEST_F(SightingScoreTest, WhatWasNotSeenIsNotScored) {
@@ -196,7 +187,7 @@ TEST_F(SightingScoreTest, WhatWasNotSeenIsNotScored) {
   seen({50, 0}, 2.0f, 5.0f).state = SightingState::none;
   EXPECT_TRUE(std::isnan(score())) << "hidden or out of view: nothing is known";
   seen({0, 0}, 0.0f);
-  EXPECT_NEAR(score(), 0.7f * -1.5f, kRounding);
+  EXPECT_NEAR(score(), 0.7f * -2.5f, kRounding);
 }
 
 // Four nats for a view that saw through the feature's place, eight for two and more, on top of what frames say.
@@ -217,7 +208,7 @@ TEST_F(SightingScoreTest, SightingsAreComparedWhereTheMotionPutsThem) {
     seen({25, 0}, 0.0f);
     matches_.sightings.frames()[static_cast<std::size_t>(i)].reference_from_current.translation().x() = 0.1;
   }
-  EXPECT_NEAR(score(), -1.5f, kRounding);
+  EXPECT_NEAR(score(), -2.5f, kRounding);
 }
 
 }  // namespace

@@ -21,8 +21,6 @@ static_assert(is_keep_floor<KeepFloor>::value);
 class KeepFloorTest : public testing::Test {
  protected:
   KeepFloorTest() {
-    floor_.options.columns = 4;
-    floor_.options.rows = 3;
     floor_.options.fewest_features = 0;
     floor_.options.fewest_cells = 0;
   }
