@@ -99,7 +99,7 @@ class CornerTracker {
   static constexpr float kBorder_px = 8.0f;  // nearer to the border than this a match is `near_edge`
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
-  static constexpr float kOtherStart_px = 8.0f;  // a nearer second start finds what the first one finds
+  static constexpr float kOtherStart_px = 8.0f;   // a nearer second start finds what the first one finds
 
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
     return image.border_distance_px(pixel.x(), pixel.y());
