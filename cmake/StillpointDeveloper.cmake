@@ -24,6 +24,7 @@ endif()
 add_library(stillpoint_developer INTERFACE)
 target_compile_options(stillpoint_developer INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>
+  $<$<CXX_COMPILER_ID:Clang,AppleClang>:-Wno-gnu-zero-variadic-macro-arguments>  # GoogleTest's TYPED_TEST_SUITE
   $<$<CXX_COMPILER_ID:MSVC>:/W4;/permissive->)
 if(STILLPOINT_WARNINGS_AS_ERRORS)
   target_compile_options(stillpoint_developer INTERFACE

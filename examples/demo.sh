@@ -14,7 +14,8 @@ bash "$root/tests/install_packages.sh" g++ cmake ninja-build libopencv-dev libei
 
 echo "Building stillpoint_run: a few minutes, the first time."
 cmake -S "$root" -B "$build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_EXAMPLES=ON \
-  -DSTILLPOINT_BUILD_TESTS=OFF -DSTILLPOINT_BUILD_BENCHMARKS=OFF -DSTILLPOINT_BUILD_DOCS=OFF > /dev/null
+  -DSTILLPOINT_BUILD_TESTS=OFF -DSTILLPOINT_BUILD_BENCHMARKS=OFF -DSTILLPOINT_BUILD_DOCS=OFF \
+  -DSTILLPOINT_WARNINGS_AS_ERRORS="${STILLPOINT_WARNINGS_AS_ERRORS:-OFF}" > /dev/null
 cmake --build "$build" --target stillpoint_run
 
 "$build/examples/stillpoint_run" --demo --out "$build/report" "$@"

@@ -15,7 +15,7 @@
 #include "run_program.hpp"
 #include "small_sequence.hpp"
 
-namespace system_test {
+namespace system_test::network_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -187,4 +187,4 @@ TEST_F(NetworkPrior, PublishedNetworkFindsPeople) {
 }
 
 }  // namespace
-}  // namespace system_test
+}  // namespace system_test::network_test

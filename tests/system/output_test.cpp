@@ -18,7 +18,7 @@
 
 #include "run_program.hpp"
 
-namespace system_test {
+namespace system_test::output_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -329,4 +329,4 @@ TEST(RecordedSequences, RunWithTheirBoxes) {
 }
 
 }  // namespace
-}  // namespace system_test
+}  // namespace system_test::output_test

@@ -4,6 +4,7 @@
 
 // Corners of our own, followed from the current frame to the last one, coarse to fine.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -64,9 +65,11 @@ class CornerTracker {
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
-      follow(first + c, start_[c].aligned, current.depth, matches);
+      follow(first + c, start_[c].aligned, kFinerLevels, current.depth, matches);
+      if (!matches.matched(first + c)) follow(first + c, start_[c].aligned, current_.size(), current.depth, matches);
       const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > kOtherStart_px;
-      if (elsewhere && !matches.matched(first + c)) follow(first + c, start_[c].expected, current.depth, matches);
+      if (elsewhere && !matches.matched(first + c))
+        follow(first + c, start_[c].expected, current_.size(), current.depth, matches);
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
@@ -95,7 +98,8 @@ class CornerTracker {
   static constexpr int kFewestPixels = 25;   // of a patch's 64 that must lie on the corner's surface
   static constexpr float kBorder_px = 8.0f;  // nearer to the border than this a match is `near_edge`
   static constexpr DepthTolerance kSameSurface{};
-  static constexpr float kOtherStart_px = 8.0f;  // a nearer second start finds what the first one finds
+  static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
+  static constexpr float kOtherStart_px = 8.0f;   // a nearer second start finds what the first one finds
 
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
     return image.border_distance_px(pixel.x(), pixel.y());
@@ -127,13 +131,15 @@ class CornerTracker {
     start_.assign(corners_.size(), Start{});
   }
 
-  /// @param start  displacement from which the search begins, pixels
-  void follow(std::size_t i, const Vector2f& start, const DepthView& depth, Matches& matches) const {
+  /// @param start   displacement from which the search begins, pixels
+  /// @param levels  of the pyramid, from its finest on
+  void follow(std::size_t i, const Vector2f& start, std::size_t levels, const DepthView& depth,
+              Matches& matches) const {
     const Vector2f pixel = matches.current.pixel[i];
     Vector2f displacement = start;
     Patch patch;
     PatchFit fit;
-    for (std::size_t level = current_.size(); level-- > 0;) {
+    for (std::size_t level = std::min(levels, current_.size()); level-- > 0;) {
       const Vector2f cut = rounded(Pyramid::to_level(pixel, level));
       const PatchMask mask = level == 0 ? PatchMask(depth, pixel, kSameSurface) : PatchMask();
       fit = PatchFit();

@@ -5,7 +5,6 @@
 // Corners of our own, one for each cell of a grid: support by area, not by where the texture is.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -38,7 +37,8 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
   const span<Best> best = workspace.take<Best>(static_cast<std::size_t>(cells_across));
   // Column sums of the gradient products over 2 kRadius + 1 rows slide down the image.
   const span<float> xx = workspace.take<float>(width), xy = workspace.take<float>(width),
-                    yy = workspace.take<float>(width), strength = workspace.take<float>(width);
+                    yy = workspace.take<float>(width), half_trace = workspace.take<float>(width),
+                    strength = workspace.take<float>(width);
   const auto add_row = [&](int v, float sign) {
     const std::uint8_t* const above = image.row<std::uint8_t>(v - 1);
     const std::uint8_t* const here = image.row<std::uint8_t>(v);
@@ -60,17 +60,24 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
   for (int v = kBorder - kRadius; v < kBorder + kRadius; ++v) add_row(v, 1.0f);
   for (int v = kBorder; v < rows - kBorder; ++v) {
     add_row(v + kRadius, 1.0f);
-    float *const pxx = xx.data(), *const pxy = xy.data(), *const pyy = yy.data(), *const out = strength.data();
+    const auto across = [](const float* sums) {  // over 2 kRadius + 1 columns
+      return [sums](int u) { return sums[u - 2] + sums[u - 1] + sums[u] + sums[u + 1] + sums[u + 2]; };
+    };
+    const auto sum_xx = across(xx.data()), sum_xy = across(xy.data()), sum_yy = across(yy.data());
+    float *const mean = half_trace.data(), *const out = strength.data();
     for (int u = kBorder; u < columns - kBorder; ++u) {
-      const float a = pxx[u - 2] + pxx[u - 1] + pxx[u] + pxx[u + 1] + pxx[u + 2];
-      const float b = pxy[u - 2] + pxy[u - 1] + pxy[u] + pxy[u + 1] + pxy[u + 2];
-      const float c = pyy[u - 2] + pyy[u - 1] + pyy[u] + pyy[u + 1] + pyy[u + 2];
-      out[u] = 0.5f * (a + c) - std::sqrt(0.25f * (a - c) * (a - c) + b * b);
+      const float a = sum_xx(u), b = sum_xy(u), c = sum_yy(u);
+      mean[u] = 0.5f * (a + c);
+      out[u] = 0.25f * (a - c) * (a - c) + b * b;
     }
+    // Eigen's roots come four at a time; std::sqrt's would one by one, because of errno.
+    Eigen::Map<Eigen::ArrayXf> all(out, columns);
+    all = Eigen::Map<const Eigen::ArrayXf>(mean, columns) - all.sqrt();
     for (int begin = 0, end = cell_px; begin < columns; begin = end, end += cell_px) {
       Best& cell = best[static_cast<std::size_t>(begin / cell_px)];
-      const int last = std::min(end, columns - kBorder);
-      for (int u = std::max(begin, kBorder); u < last; ++u)
+      const int first = std::max(begin, kBorder), last = std::min(end, columns - kBorder);
+      if (first >= last || !(all.segment(first, last - first).maxCoeff() > cell.strength)) continue;
+      for (int u = first; u < last; ++u)
         if (out[u] > cell.strength) cell = {out[u], u, v};
     }
     add_row(v - kRadius, -1.0f);

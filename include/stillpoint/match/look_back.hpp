@@ -3,9 +3,6 @@
 #pragma once
 
 // What do older frames show where a standing feature should be?   Features, the motion → sightings
-//
-// A test per frame pair sees fast movers only; a slow one is found against a frame that is old enough for its step to
-// exceed the noise.
 
 #include <algorithm>
 #include <array>
@@ -14,14 +11,15 @@
 #include <limits>
 #include <utility>
 
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
+#include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
 #include "stillpoint/match/space_search.hpp"
+#include "stillpoint/match/static_place.hpp"
 #include "stillpoint/match/surface_search.hpp"
 #include "stillpoint/match/surrounding_depth.hpp"
 
@@ -47,18 +45,13 @@ class LookBack {
   template <class Camera, class Noise>
   void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
               const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
-    matches.sightings.clear();
-    for (const std::size_t age : choose_ages(history, current, camera, matches, workspace)) {
-      if (age == 0) continue;
-      OlderFrame& older = matches.sightings.add(matches.size());
-      older.age = age;
-      older.elapsed_s = current.timestamp_s - history.back(age).timestamp_s;
-    }
+    const OlderFrameChoice choice{options.slowest_m_s, options.pixel_sigma, options.longest_s};
+    choice.choose(history, current, camera, matches, workspace);
     surfaces.collect(current, camera, noise, matches.sightings.surfaces);
     const span<OlderFrame> frames = matches.sightings.frames();
-    look_for_surfaces(history, filter_from_expected, camera, noise, matches.sightings.surfaces,
+    look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.sightings.surfaces,
                       frames.first(std::min<std::size_t>(frames.size(), 1)));
-    if (!frames.empty()) predict(frames[0].reference_from_current, camera, matches);
+    if (!frames.empty()) predict_places(frames[0].reference_from_current, camera, matches);
     space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise, matches);
   }
 
@@ -66,7 +59,7 @@ class LookBack {
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
                  const Camera& camera, const Noise& noise, Matches& matches) const {
-    look_for_surfaces(history, filter_from_current, camera, noise, matches.sightings.surfaces,
+    look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.sightings.surfaces,
                       matches.sightings.frames());
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches.current.has_depth(i)) {
@@ -81,68 +74,18 @@ class LookBack {
   }
 
  private:
-  static constexpr double kDetectableSigmas = 3.0;  // of the step that the slowest mover makes since the oldest frame
-  static constexpr int kFewestPixels = 25;          // of a patch's 64 that must lie on the feature's surface
+  static constexpr int kFewestPixels = 25;  // of a patch's 64 that must lie on the feature's surface
   static constexpr DepthTolerance kSameSurface{};
-  static constexpr double kOcclusion_m = 0.15;    // beside `occlusion_sigmas`: what hides a point is nearer by this
   static constexpr int kOccluderReach_px = 8;     // what is nearer within this reach covers a part of the patch
   static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
   static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one
+  static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
+  static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
+  static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
   static constexpr float kClearlyAlike = 0.12f;   // a feature no more unlike in the last and in the oldest frame …
   static constexpr float kClearlyThere_px = 0.7f;  // … and no farther from its place is not looked for in those between
   static constexpr int kSearchIterations = 3;      // a static point is not three pixels away: more find look-alikes
   static constexpr float kSearchPrecision_px = 0.2f;
-  static constexpr std::size_t kLooks = 3;            // older frames
-  static constexpr double kLongestAtLowRate_s = 1.0;  // of the oldest, where three are not to be had within `longest_s`
-  static constexpr double kBridgedSpread = 0.03;  // as `kSupposedSpread`, where all that is beside it is one surface
-  static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
-  static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
-
-  /// The last frame, the oldest that is needed, and one between them (their geometric mean in time); 0 is none. The
-  /// oldest is the first against which the slowest mover of interest makes a detectable step at the scene's median
-  /// depth, and at the least the third: one look can be a reflection.
-  template <class Camera>
-  std::array<std::size_t, 3> choose_ages(const FrameHistory& history, const FrameView& current, const Camera& camera,
-                                         const Matches& matches, Workspace& workspace) const {
-    const double lateral_sigma_m = options.pixel_sigma * median_depth_m(matches.current, workspace) / camera.fx();
-    const double wanted_s = std::min(kDetectableSigmas * lateral_sigma_m / options.slowest_m_s, options.longest_s);
-    const auto elapsed_s = [&](std::size_t age) { return current.timestamp_s - history.back(age).timestamp_s; };
-    std::size_t oldest = 1;
-    while (oldest < history.size() &&
-           (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < kLongestAtLowRate_s)))
-      ++oldest;
-    const std::size_t between =
-        std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(oldest)))));
-    return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
-  }
-
-  /// Where the last frame showed the host's features and the surfaces, if they stand still.
-  template <class Camera>
-  static void predict(const Pose& reference_from_current, const Camera& camera, Matches& matches) {
-    const auto project = [&](const Vector3d& point, Vector2f& pixel) {
-      const Vector3d there = reference_from_current * point;
-      if (there.z() > SurfaceSearch::kNearest_m) pixel = camera.distort(camera.project(there)).template cast<float>();
-    };
-    for (std::size_t i = 0; i < matches.host_count; ++i)
-      if (matches.current.has_depth(i)) project(matches.current.point[i], matches.predicted[i]);
-    for (SurfaceCell& cell : matches.sightings.surfaces) {
-      cell.predicted = cell.pixel;
-      project(cell.point, cell.predicted);
-    }
-  }
-
-  template <class Camera, class Noise>
-  void look_for_surfaces(const FrameHistory& history, const Pose& filter_from_current, const Camera& camera,
-                         const Noise& noise, span<const SurfaceCell> cells, span<OlderFrame> frames) const {
-    for (OlderFrame& older : frames) {
-      const PastFrame& past = history.back(older.age);
-      const FrameView view = past.view();
-      older.reference_from_current = orthonormalized(past.filter_from_camera.inverse() * filter_from_current);
-      older.of_surface.clear();
-      for (const SurfaceCell& cell : cells)
-        older.of_surface.push_back(surfaces.look(cell, view, older.reference_from_current, camera, noise));
-    }
-  }
 
   /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
   /// surfaces beside it. Taken is where it looks most as if it stood.
@@ -152,14 +95,16 @@ class LookBack {
     const SurroundingDepth beside =
         surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard);
     if (!(beside.farthest_m > 0)) return;
-    std::array<double, 2 + kLooks> candidates{beside.farthest_m, beside.nearest_m};
+    std::array<double, 2 + OlderFrameChoice::kLooks> candidates{beside.farthest_m, beside.nearest_m};
     std::size_t count = beside.farthest_m - beside.nearest_m < kSameSurface.at(beside.nearest_m) ? 1 : 2;
     const std::size_t supposed = count;
     for (const OlderFrame& older : std::as_const(matches.sightings).frames()) {
       const double borrowed_m =
           borrowed_depth_m(matches.current.undistorted[i], beside.farthest_m, history.back(older.age).view(),
                            older.reference_from_current, camera, guard, kSameSurface);
-      if (borrowed_m > 0 && count < candidates.size()) candidates[count++] = borrowed_m;
+      const bool is_known =
+          count > supposed && std::abs(borrowed_m - candidates[count - 1]) < kBorrowedSigmas * noise.sigma(borrowed_m);
+      if (borrowed_m > 0 && !is_known && count < candidates.size()) candidates[count++] = borrowed_m;
     }
     const auto spread_of = [&](std::size_t c) {
       const double depth_m = candidates[c];
@@ -225,60 +170,22 @@ class LookBack {
   template <class Camera, class Noise>
   Sighting look_in(const FrameView& older, const Pose& reference_from_current, const Vector3d& point,
                    double depth_sigma_m, const Patch* patch, const Camera& camera, const Noise& noise) const {
-    Sighting sighting;
-    const Vector3d there = reference_from_current * point;
-    if (!(there.z() > SurfaceSearch::kNearest_m)) return sighting;
-    const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>();
-    if (!(older.gray.border_distance_px(pixel.x(), pixel.y()) >= 1.0f)) return sighting;
-    const double sigma_m = noise.sigma(there.z());
-    const double margin_m =
-        kOcclusion_m + options.occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
-    const double measured_m = guard.at(older, pixel);
-    if (measured_m > 0) {
-      sighting.depth_m = static_cast<float>(measured_m);
-      sighting.depth_sigma_m = static_cast<float>(noise.sigma(measured_m));
-      sighting.state = measured_m < there.z() - margin_m ? SightingState::occluded : SightingState::seen;
-    }
-    if (patch == nullptr || sighting.state == SightingState::occluded) return sighting;
-    if (beside_occluder(older, pixel, there.z() - margin_m, scaled_px(kOccluderReach_px, camera))) return sighting;
+    const StaticPlace place = PlaceTest{options.occlusion_sigmas, guard}.look(older, reference_from_current, point,
+                                                                              depth_sigma_m, camera, noise);
+    Sighting sighting = place.sighting;
+    if (!place.in_view || patch == nullptr || sighting.state == SightingState::occluded) return sighting;
+    if (beside_occluder(older, place.pixel, place.nearer_than_m, scaled_px(kOccluderReach_px, camera))) return sighting;
     PatchSearch search{kSearchIterations, kSearchPrecision_px};
-    search.warp = view_warp(camera, point, there, reference_from_current);
-    const PatchFit fit = find_patch(*patch, older.gray, pixel, search);
+    search.warp = view_warp(camera, point, place.point, reference_from_current);
+    const PatchFit fit = find_patch(*patch, older.gray, place.pixel, search);
     if (!fit.inside) return sighting;
     // Without depth and without texture there is nothing to compare with: a hand before the lens, a blown-out lamp.
-    if (!(measured_m > 0) && !(fit.contrast > kLeastContrast)) return sighting;
+    if (!(sighting.depth_m > 0) && !(fit.contrast > kLeastContrast)) return sighting;
     sighting.state = SightingState::seen;
     sighting.dissimilarity = fit.dissimilarity;
     sighting.offset_px = fit.offset.norm();
-    sighting.found = camera.undistort((pixel + fit.offset).template cast<double>()).template cast<float>();
+    sighting.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
     return sighting;
-  }
-
-  template <class Camera>
-  static int scaled_px(int length_px, const Camera& camera) noexcept {
-    return rounded(pixel_scale(camera) * static_cast<float>(length_px));
-  }
-
-  /// Does something nearer cover a part of the patch? What a mover has just uncovered looks changed and stood still.
-  bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m,
-                       int reach_px) const noexcept {
-    if (frame.depth.empty() || reach_px <= 0) return false;
-    const DepthScale to_depth(frame.gray, frame.depth.image);
-    for (const int ring_px : {(reach_px + 1) / 2, reach_px}) {
-      std::array<int, 3> u, v;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector2f at = to_depth(pixel.array() + static_cast<float>((static_cast<int>(k) - 1) * ring_px));
-        u[k] = rounded(at.x());
-        v[k] = rounded(at.y());
-      }
-      for (const int row : v) {
-        for (const int column : u) {
-          const double depth_m = frame.depth.image.contains(column, row) ? frame.depth.metres(column, row) : 0.0;
-          if (depth_m > 0 && depth_m < nearer_than_m) return true;
-        }
-      }
-    }
-    return false;
   }
 
   /// How a small step in the current image moves in the older one, for a surface that faces the camera.

@@ -21,6 +21,7 @@
 #include "unit/adapters/look_alikes.hpp"
 #include "unit/adapters/tagged_arrays.hpp"
 
+namespace compaction_conformance_test {
 namespace {
 
 using look_alikes::Counted;
@@ -249,3 +250,4 @@ TYPED_TEST(AdapterCompaction, MovesEachEntryAtMostOnce) {
 }
 
 }  // namespace
+}  // namespace compaction_conformance_test

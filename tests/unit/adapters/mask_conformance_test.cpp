@@ -21,6 +21,7 @@
 #include "stillpoint/adapters/vins.hpp"
 #include "unit/adapters/look_alikes.hpp"
 
+namespace mask_conformance_test {
 namespace {
 
 constexpr int kWidth = 7, kHeight = 5;
@@ -174,3 +175,4 @@ TYPED_TEST(AdapterMask, RefusesAnotherFormat) {
 }
 
 }  // namespace
+}  // namespace mask_conformance_test

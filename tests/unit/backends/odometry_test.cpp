@@ -13,6 +13,7 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
+namespace odometry_test {
 namespace {
 
 using examples::OrbFeatures;
@@ -131,3 +132,4 @@ TEST(RgbdOdometry, EqualFramesGiveEqualBytes) {
 }
 
 }  // namespace
+}  // namespace odometry_test

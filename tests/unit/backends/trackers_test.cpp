@@ -16,6 +16,7 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
+namespace trackers_test {
 namespace {
 
 using examples::KltOdometry;
@@ -174,3 +175,4 @@ TEST(KltOdometry, ADroppedTrackNeverComesBack) {
 }
 
 }  // namespace
+}  // namespace trackers_test

@@ -11,7 +11,7 @@
 
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::region_clusters_test {
 namespace {
 
 static_assert(is_classifier<RegionClusters>::value);
@@ -201,4 +201,4 @@ TEST(RegionClusters, NoFeaturesAreFine) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::region_clusters_test

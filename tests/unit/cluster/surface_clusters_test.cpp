@@ -13,7 +13,7 @@
 
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::surface_clusters_test {
 namespace {
 
 static_assert(is_classifier<SurfaceClusters>::value);
@@ -238,4 +238,4 @@ TEST_F(SurfaceClustersTest, EqualSeedsGiveEqualClusters) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::surface_clusters_test

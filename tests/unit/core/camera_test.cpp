@@ -11,7 +11,7 @@
 
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::camera_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -102,4 +102,4 @@ TEST(PinholeCamera, RefusesALensThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::camera_test

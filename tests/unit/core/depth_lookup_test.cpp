@@ -14,7 +14,7 @@
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
 
-namespace stillpoint {
+namespace stillpoint::depth_lookup_test {
 namespace {
 
 static_assert(is_depth_lookup<RoundedDepth>::value);
@@ -136,4 +136,4 @@ TEST(MedianDepth, CountsOnlyWhatHasADepth) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::depth_lookup_test

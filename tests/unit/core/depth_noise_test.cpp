@@ -7,7 +7,7 @@
 
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::depth_noise_test {
 namespace {
 
 constexpr double kRounding = 1e-15;
@@ -56,4 +56,4 @@ TEST(FunctorNoise, CallsTheUsersFunction) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::depth_noise_test

@@ -13,7 +13,7 @@
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/opencv.hpp"
 
-namespace stillpoint {
+namespace stillpoint::frame_check_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -166,4 +166,4 @@ TEST(FrameHistory, ForgetsADepthThatIsGone) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::frame_check_test

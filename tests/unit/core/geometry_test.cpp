@@ -9,7 +9,7 @@
 
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::geometry_test {
 namespace {
 
 constexpr double kRounding = 1e-12;  // a few operations on numbers of size one
@@ -83,4 +83,4 @@ TEST(Geometry, OrthonormalizedStopsTheDriftOfLongChains) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::geometry_test

@@ -11,7 +11,7 @@
 
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::guarded_depth_test {
 namespace {
 
 static_assert(is_depth_lookup<GuardedDepth>::value);
@@ -120,4 +120,4 @@ TEST(GuardedDepth, SmallAndEmptyImagesHaveNone) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::guarded_depth_test

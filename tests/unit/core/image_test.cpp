@@ -12,7 +12,7 @@
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/opencv.hpp"
 
-namespace stillpoint {
+namespace stillpoint::image_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -119,4 +119,4 @@ TEST(GrayFromBgr, ReadsRowsWithGaps) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::image_test

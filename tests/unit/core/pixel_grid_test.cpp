@@ -11,7 +11,7 @@
 
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::pixel_grid_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -102,4 +102,4 @@ TEST(PixelGrid, AFarPointNeitherHidesOthersNorCostsMemory) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::pixel_grid_test

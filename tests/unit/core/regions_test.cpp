@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace stillpoint {
+namespace stillpoint::regions_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -122,4 +122,4 @@ TEST(Regions, LocateForgetsTheFrameBefore) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::regions_test

@@ -5,7 +5,7 @@
 
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_detection_output_test {
 namespace {
 
 const DecodeSettings kSettings{{200, 100}, 3, 0.4f};
@@ -75,4 +75,4 @@ TEST(DecodeEnd2End, TwoOrdersOfColumns) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_detection_output_test

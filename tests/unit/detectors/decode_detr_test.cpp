@@ -8,7 +8,7 @@
 
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_detr_test {
 namespace {
 
 const DecodeSettings kSettings{{200, 100}, 3, 0.4f};
@@ -92,4 +92,4 @@ TEST(DecodeLabelledBoxes, NothingFoundIsNoError) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_detr_test

@@ -8,7 +8,7 @@
 
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_nanodet_test {
 namespace {
 
 // Input 64x64: 64, 16, 4 and 1 cells of strides 8, 16, 32, 64. Three classes; 8 bins a side.
@@ -115,4 +115,4 @@ TEST(DecodeNanoDetPlus, NanDistancesAreNoBox) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_nanodet_test

@@ -8,7 +8,7 @@
 
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_segmentation_test {
 namespace {
 
 // A raster of 20x10 for an input of 200x100: ten pixels a cell.
@@ -121,4 +121,4 @@ TEST(DecodeSegmentation, LabelMapsAreCertain) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_segmentation_test

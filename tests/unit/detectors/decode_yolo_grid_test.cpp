@@ -8,7 +8,7 @@
 
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_yolo_grid_test {
 namespace {
 
 // Input 64x32: 8x4 + 4x2 + 2x1 = 32 + 8 + 2 = 42 cells. Two classes: 7 fields.
@@ -83,4 +83,4 @@ TEST(DecodeDarknet, SharesOfTheInputAndScoresThatAreMultipliedAlready) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_yolo_grid_test

@@ -8,7 +8,7 @@
 
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_yolo_raw_test {
 namespace {
 
 // Input 64x32, strides 8 and 16: heads of 8x4 and 4x2 cells. Two classes: 7 fields a box.
@@ -113,4 +113,4 @@ TEST(YoloCoding, EachFamilyHasItsAnchors) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_yolo_raw_test

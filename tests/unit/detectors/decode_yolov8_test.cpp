@@ -6,7 +6,7 @@
 #include "stillpoint/detectors/yolo_masks.hpp"
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::decode_yolov8_test {
 namespace {
 
 const DecodeSettings kSettings{{64, 32}, 3, 0.4f};
@@ -84,4 +84,4 @@ TEST(YoloMasks, OutsideThePictureIsNothing) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::decode_yolov8_test

@@ -13,7 +13,7 @@
 
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::alignment_test {
 namespace {
 
 /// Rounding of sums over some tens of values of size one.
@@ -162,4 +162,4 @@ TEST(Transformed, MovesPositionsWithTheScaleAndOrientationsWithoutIt) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::alignment_test

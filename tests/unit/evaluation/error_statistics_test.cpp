@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace stillpoint {
+namespace stillpoint::error_statistics_test {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -58,4 +58,4 @@ TEST(ImprovementPercent, IsEmptyWithoutSomethingToCompare) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::error_statistics_test

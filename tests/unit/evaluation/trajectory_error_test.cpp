@@ -11,7 +11,7 @@
 
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::trajectory_error_test {
 namespace {
 
 constexpr double kRounding = 1e-9;
@@ -177,4 +177,4 @@ TEST(RelativeTrajectoryError, DeltaThatMakesNoSenseIsAnError) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::trajectory_error_test

@@ -10,7 +10,7 @@
 #include "unit/error_of.hpp"
 #include "unit/temporary_folder.hpp"
 
-namespace stillpoint {
+namespace stillpoint::boxes_file_test {
 namespace {
 
 const std::string kHeader = "# timestamp class_name confidence x y w h\n";
@@ -87,4 +87,4 @@ TEST(BoxesAt, FindsTheNearestWithinTheTolerance) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::boxes_file_test

@@ -12,7 +12,7 @@
 #include "unit/error_of.hpp"
 #include "unit/temporary_folder.hpp"
 
-namespace stillpoint {
+namespace stillpoint::trajectory_file_test {
 namespace {
 
 const std::string kGood = "1.0 0 0 0 0 0 0 1\n";
@@ -118,4 +118,4 @@ TEST(WriteTrajectory, PoseThatIsNotFiniteIsAnErrorAndNoFile) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::trajectory_file_test

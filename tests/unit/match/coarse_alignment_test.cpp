@@ -14,7 +14,7 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
-namespace stillpoint {
+namespace stillpoint::coarse_alignment_test {
 namespace {
 
 /// Frames of a turning camera in a room, some time apart, and what the alignment says of their motion.
@@ -132,4 +132,4 @@ TEST_F(CoarseAlignmentTest, WhatMovesHasNoSay) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::coarse_alignment_test

@@ -18,7 +18,7 @@
 #include "stillpoint/synthetic/scenes.hpp"
 #include "wave_texture.hpp"
 
-namespace stillpoint {
+namespace stillpoint::corner_tracker_test {
 namespace {
 
 static_assert(is_matcher<CornerTracker>::value);
@@ -158,4 +158,4 @@ TEST(CornerTracker, TinyAndFlatImagesHaveNoCorners) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::corner_tracker_test

@@ -13,7 +13,7 @@
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::lucas_kanade_test {
 namespace {
 
 static_assert(is_matcher<LucasKanade>::value);
@@ -245,4 +245,4 @@ TEST(LucasKanade, OptionsMayChangeBetweenFrames) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::lucas_kanade_test

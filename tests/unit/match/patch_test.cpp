@@ -12,7 +12,7 @@
 #include "stillpoint/opencv.hpp"
 #include "wave_texture.hpp"
 
-namespace stillpoint {
+namespace stillpoint::patch_test {
 namespace {
 
 using test::WaveTexture;
@@ -285,4 +285,4 @@ TEST(FindPatch, ComparesTheMaskedPartOnly) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::patch_test

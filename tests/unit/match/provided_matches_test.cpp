@@ -12,7 +12,7 @@
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
 
-namespace stillpoint {
+namespace stillpoint::provided_matches_test {
 namespace {
 
 static_assert(is_matcher<ProvidedMatches>::value);
@@ -92,4 +92,4 @@ TEST_F(ProvidedMatchesTest, ResetForgetsTheTracks) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::provided_matches_test

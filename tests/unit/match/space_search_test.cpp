@@ -14,7 +14,7 @@
 #include "stillpoint/core/space_history.hpp"
 #include "stillpoint/opencv.hpp"
 
-namespace stillpoint {
+namespace stillpoint::space_search_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
@@ -144,4 +144,4 @@ TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::space_search_test

@@ -11,7 +11,7 @@
 #include "motion_scene.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::epipolar_motion_test {
 namespace {
 
 using test::SceneOptions;
@@ -202,4 +202,4 @@ TEST(EpipolarMotion, EqualSeedsGiveEqualMotions) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::epipolar_motion_test

@@ -10,7 +10,7 @@
 #include "motion_scene.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::rigid_motion_test {
 namespace {
 
 using test::SceneOptions;
@@ -147,4 +147,4 @@ TEST(RigidMotion, EqualSeedsGiveEqualMotions) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::rigid_motion_test

@@ -16,7 +16,7 @@
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::support_motion_test {
 namespace {
 
 using test::SceneOptions;
@@ -535,4 +535,4 @@ TEST(SupportMotion, ACreepEndsTheStandWhereAnOlderFrameShowsIt) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::support_motion_test

@@ -13,7 +13,7 @@
 #include "clip.hpp"
 #include "stillpoint/policies.hpp"
 
-namespace stillpoint {
+namespace stillpoint::default_policies_test {
 namespace {
 
 static_assert(std::is_same_v<FrameFilter<>, FrameFilter<DefaultPolicies>>, "what users get");
@@ -190,4 +190,4 @@ TEST_F(DefaultFilter, AFrameWithoutKeypointsIsFollowedByJudgedOnes) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::default_policies_test

@@ -22,7 +22,7 @@
 #include "stillpoint/synthetic/scenes.hpp"
 #include "stillpoint/verdict/output_modes.hpp"
 
-namespace stillpoint {
+namespace stillpoint::default_scenes_test {
 namespace {
 
 enum class Prior { none, boxes };
@@ -275,4 +275,4 @@ TEST(DefaultScenes, ARecordedStaticKitchenHoldsTheSetRate) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::default_scenes_test

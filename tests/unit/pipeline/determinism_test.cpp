@@ -10,7 +10,7 @@
 #include "clip.hpp"
 #include "stillpoint/policies.hpp"
 
-namespace stillpoint {
+namespace stillpoint::determinism_test {
 namespace {
 
 template <class Policies>
@@ -105,4 +105,4 @@ TYPED_TEST(DeterminismTest, NothingOfTheHostsIsChanged) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::determinism_test

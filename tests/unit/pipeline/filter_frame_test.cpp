@@ -20,7 +20,7 @@
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/verdict/no_keep_floor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::filter_frame_test {
 namespace {
 
 static_assert(is_memory<NoMemory>::value && !is_memory<NoKeepFloor>::value);
@@ -539,4 +539,4 @@ TEST(FrameFilter, TwoInTurnDoNotKnowOfEachOther) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::filter_frame_test

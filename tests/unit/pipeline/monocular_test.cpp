@@ -18,7 +18,7 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
-namespace stillpoint {
+namespace stillpoint::monocular_test {
 namespace {
 
 struct Outcome {
@@ -82,4 +82,4 @@ TEST(Monocular, WhoWalksInABoxIsFoundAndTheRoomKept) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::monocular_test

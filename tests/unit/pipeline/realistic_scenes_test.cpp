@@ -28,7 +28,7 @@
 #include "stillpoint/synthetic/street.hpp"
 #include "stillpoint/synthetic/truth.hpp"
 
-namespace stillpoint {
+namespace stillpoint::realistic_scenes_test {
 namespace {
 
 #ifdef __SANITIZE_ADDRESS__
@@ -224,4 +224,4 @@ TEST(RealisticScenes, ACarInABendDoesNoHarm) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::realistic_scenes_test

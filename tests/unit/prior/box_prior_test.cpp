@@ -12,7 +12,7 @@
 
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::box_prior_test {
 namespace {
 
 static_assert(is_prior<BoxPrior>::value && is_prior<NoPrior>::value);
@@ -89,4 +89,4 @@ TEST(NoPrior, ForgetsTheFrameBefore) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::box_prior_test

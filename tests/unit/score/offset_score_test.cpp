@@ -12,7 +12,7 @@
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
 
-namespace stillpoint {
+namespace stillpoint::offset_score_test {
 namespace {
 
 static_assert(is_scorer<OffsetScore, Camera>::value);
@@ -124,4 +124,4 @@ TEST(OffsetScore, WithoutAMatchOrADepthThereIsNoScore) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::offset_score_test

@@ -14,7 +14,7 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::sighting_score_test {
 namespace {
 
 static_assert(is_scorer<SightingScore, Camera>::value);
@@ -212,4 +212,4 @@ TEST_F(SightingScoreTest, SightingsAreComparedWhereTheMotionPutsThem) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::sighting_score_test

@@ -14,7 +14,7 @@
 #include "stillpoint/core/random.hpp"
 #include "unit/error_of.hpp"
 
-namespace stillpoint {
+namespace stillpoint::rectification_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
@@ -137,4 +137,4 @@ TEST(StereoRectification, PairsThatAreNoneAreNamed) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::rectification_test

@@ -23,7 +23,7 @@
 #include "stillpoint/synthetic/stereo.hpp"
 #include "unit/error_of.hpp"
 
-namespace stillpoint {
+namespace stillpoint::stereo_depth_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 240;
@@ -220,4 +220,4 @@ TEST(StereoDepth, ImagesThatAreNoPairAreNamed) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::stereo_depth_test

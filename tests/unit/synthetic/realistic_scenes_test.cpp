@@ -15,7 +15,7 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/truth.hpp"
 
-namespace stillpoint::synthetic {
+namespace stillpoint::synthetic::realistic_scenes_test {
 namespace {
 
 constexpr std::uint64_t kSeeds[] = {1, 2, 3};
@@ -263,4 +263,4 @@ TEST(SlowWalker, GoesATenthOfAMetrePerSecondTwoMetresAway) {
 }
 
 }  // namespace
-}  // namespace stillpoint::synthetic
+}  // namespace stillpoint::synthetic::realistic_scenes_test

@@ -18,7 +18,7 @@
 #include "stillpoint/synthetic/room.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
-namespace stillpoint::synthetic {
+namespace stillpoint::synthetic::realistic_sensor_test {
 namespace {
 
 constexpr double kFocal_px = 525.0;
@@ -380,4 +380,4 @@ TEST(RealisticKinect, EqualSeedsGiveEqualBytesInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace stillpoint::synthetic
+}  // namespace stillpoint::synthetic::realistic_sensor_test

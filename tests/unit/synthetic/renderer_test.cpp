@@ -27,7 +27,7 @@ long allocations = 0;  // of this executable, counted by the operators below
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace stillpoint::synthetic {
+namespace stillpoint::synthetic::renderer_test {
 namespace {
 
 SceneOptions small(std::uint64_t seed = 1) {
@@ -439,4 +439,4 @@ TEST(SyntheticSequence, RefusesScenesThatMakeNoSequence) {
 }
 
 }  // namespace
-}  // namespace stillpoint::synthetic
+}  // namespace stillpoint::synthetic::renderer_test

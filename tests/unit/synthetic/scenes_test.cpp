@@ -12,7 +12,7 @@
 
 #include "stillpoint/synthetic/renderer.hpp"
 
-namespace stillpoint::synthetic {
+namespace stillpoint::synthetic::scenes_test {
 namespace {
 
 SceneOptions small() {
@@ -194,4 +194,4 @@ TEST(Scenes, RefuseTinyPictures) {
 }
 
 }  // namespace
-}  // namespace stillpoint::synthetic
+}  // namespace stillpoint::synthetic::scenes_test

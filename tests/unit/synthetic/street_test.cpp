@@ -19,7 +19,7 @@
 #include "stillpoint/synthetic/truth.hpp"
 #include "unit/error_of.hpp"
 
-namespace stillpoint::synthetic {
+namespace stillpoint::synthetic::street_test {
 namespace {
 
 constexpr double kBend_m = 23.0;
@@ -168,4 +168,4 @@ TEST(StreetFromCar, BlockMatchingFindsTheExactDepth) {
 }
 
 }  // namespace
-}  // namespace stillpoint::synthetic
+}  // namespace stillpoint::synthetic::street_test

@@ -15,7 +15,7 @@
 #include "stillpoint/opencv.hpp"
 #include "unit/pipeline/mock_policies.hpp"
 
-namespace stillpoint {
+namespace stillpoint::output_modes_test {
 namespace {
 
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
@@ -193,4 +193,4 @@ TEST(MaskedDepth, OfNothingIsNothingAndWithoutAMaskAllIsKept) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::output_modes_test

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Which older frames are looked at?   The history, the scene's depth → frames, and where they show the surfaces
+//
+// A test per frame pair sees fast movers only; a slow one is found against a frame that is old enough for its step to
+// exceed the noise.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/frame_history.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/match/surface_search.hpp"
+
+namespace stillpoint {
+
+/// Chooses older frames by the time that has passed.
+struct OlderFrameChoice {
+  static constexpr std::size_t kLooks = 3;  ///< older frames at the most
+
+  double slowest_m_s = 0.03;  ///< a mover of this speed should be seen against the oldest frame
+  double pixel_sigma = 0.7;   ///< of a found place, pixels
+  double longest_s = 0.5;     ///< but no frame is older than this, unless frames are few
+
+  /// Fills `matches.sightings` with frames in which nothing is looked for yet.
+  template <class Camera>
+  void choose(const FrameHistory& history, const FrameView& current, const Camera& camera, Matches& matches,
+              Workspace& workspace) const {
+    matches.sightings.clear();
+    for (const std::size_t age : ages(history, current, camera, matches, workspace)) {
+      if (age == 0) continue;
+      OlderFrame& older = matches.sightings.add(matches.size());
+      older.age = age;
+      older.elapsed_s = current.timestamp_s - history.back(age).timestamp_s;
+    }
+  }
+
+ private:
+  static constexpr double kDetectableSigmas = 3.0;    // of the step that the slowest mover makes since the oldest frame
+  static constexpr double kLongestAtLowRate_s = 1.0;  // of the oldest, where three are not to be had within `longest_s`
+
+  /// The last frame, the oldest that is needed, and one between them (their geometric mean in time); 0 is none. The
+  /// oldest is the first against which the slowest mover of interest makes a detectable step at the scene's median
+  /// depth, and at the least the third: one look can be a reflection.
+  template <class Camera>
+  std::array<std::size_t, kLooks> ages(const FrameHistory& history, const FrameView& current, const Camera& camera,
+                                       const Matches& matches, Workspace& workspace) const {
+    const double lateral_sigma_m = pixel_sigma * median_depth_m(matches.current, workspace) / camera.fx();
+    const double wanted_s = std::min(kDetectableSigmas * lateral_sigma_m / slowest_m_s, longest_s);
+    const auto elapsed_s = [&](std::size_t age) { return current.timestamp_s - history.back(age).timestamp_s; };
+    std::size_t oldest = 1;
+    while (oldest < history.size() &&
+           (elapsed_s(oldest) < wanted_s || (oldest < kLooks && elapsed_s(oldest + 1) < kLongestAtLowRate_s)))
+      ++oldest;
+    const std::size_t between =
+        std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(oldest)))));
+    return {1, between < oldest ? between : 0, oldest > 1 ? oldest : 0};
+  }
+};
+
+/// Writes into each frame where the camera was, seen from the current one, and what it shows in the surfaces' places.
+template <class Camera, class Noise>
+void look_for_surfaces(const SurfaceSearch& search, const FrameHistory& history, const Pose& filter_from_current,
+                       const Camera& camera, const Noise& noise, span<const SurfaceCell> cells,
+                       span<OlderFrame> frames) {
+  for (OlderFrame& older : frames) {
+    const PastFrame& past = history.back(older.age);
+    const FrameView view = past.view();
+    older.reference_from_current = orthonormalized(past.filter_from_camera.inverse() * filter_from_current);
+    older.of_surface.clear();
+    for (const SurfaceCell& cell : cells)
+      older.of_surface.push_back(search.look(cell, view, older.reference_from_current, camera, noise));
+  }
+}
+
+/// Where the last frame showed the host's features and the surfaces, if they stand still: fills `predicted`.
+template <class Camera>
+void predict_places(const Pose& reference_from_current, const Camera& camera, Matches& matches) {
+  const auto project = [&](const Vector3d& point, Vector2f& pixel) {
+    const Vector3d there = reference_from_current * point;
+    if (there.z() > SurfaceSearch::kNearest_m) pixel = camera.distort(camera.project(there)).template cast<float>();
+  };
+  for (std::size_t i = 0; i < matches.host_count; ++i)
+    if (matches.current.has_depth(i)) project(matches.current.point[i], matches.predicted[i]);
+  for (SurfaceCell& cell : matches.sightings.surfaces) {
+    cell.predicted = cell.pixel;
+    project(cell.point, cell.predicted);
+  }
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Where does a past frame show a point that stands still, and which depth is measured there?
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/sightings.hpp"
+#include "stillpoint/match/surface_search.hpp"
+
+namespace stillpoint {
+
+/// The place of a static point in a past frame.
+struct StaticPlace {
+  Vector3d point = Vector3d::Zero();  ///< in the past camera, metres
+  Vector2f pixel = Vector2f::Zero();  ///< in the image as it is
+  double nearer_than_m = 0;           ///< what is nearer hides the point
+  bool in_view = false;               ///< in front of the camera and inside the image
+  Sighting sighting;                  ///< state and depth; nothing is found yet
+};
+
+/// Looks at static places.
+struct PlaceTest {
+  static constexpr double kOcclusion_m = 0.15;  ///< a surface this much nearer hides the point …
+
+  double occlusion_sigmas = 4.0;  ///< … and this many standard deviations of both depths more
+  GuardedDepth guard;             ///< which depth of a past frame belongs to a pixel?
+
+  /// @param point          in the current camera, metres
+  /// @param depth_sigma_m  of that point's depth
+  template <class Camera, class Noise>
+  StaticPlace look(const FrameView& past, const Pose& past_from_current, const Vector3d& point, double depth_sigma_m,
+                   const Camera& camera, const Noise& noise) const {
+    StaticPlace place;
+    place.point = past_from_current * point;
+    if (!(place.point.z() > SurfaceSearch::kNearest_m)) return place;
+    place.pixel = camera.distort(camera.project(place.point)).template cast<float>();
+    if (!(past.gray.border_distance_px(place.pixel.x(), place.pixel.y()) >= 1.0f)) return place;
+    place.in_view = true;
+    const double sigma_m = noise.sigma(place.point.z());
+    const double margin_m =
+        kOcclusion_m + occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
+    place.nearer_than_m = place.point.z() - margin_m;
+    const double measured_m = guard.at(past, place.pixel);
+    if (!(measured_m > 0)) return place;
+    place.sighting.depth_m = static_cast<float>(measured_m);
+    place.sighting.depth_sigma_m = static_cast<float>(noise.sigma(measured_m));
+    place.sighting.state = measured_m < place.nearer_than_m ? SightingState::occluded : SightingState::seen;
+    return place;
+  }
+};
+
+/// Does something nearer lie within reach of a pixel? What a mover has just uncovered looks changed and stood still.
+inline bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m,
+                            int reach_px) noexcept {
+  if (frame.depth.empty() || reach_px <= 0) return false;
+  const DepthScale to_depth(frame.gray, frame.depth.image);
+  for (const int ring_px : {(reach_px + 1) / 2, reach_px}) {
+    std::array<int, 3> u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vector2f at = to_depth(pixel.array() + static_cast<float>((static_cast<int>(k) - 1) * ring_px));
+      u[k] = rounded(at.x());
+      v[k] = rounded(at.y());
+    }
+    for (const int row : v) {
+      for (const int column : u) {
+        const double depth_m = frame.depth.image.contains(column, row) ? frame.depth.metres(column, row) : 0.0;
+        if (depth_m > 0 && depth_m < nearer_than_m) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// A length that options give for a focal length of 525 px, in whole pixels of this camera.
+template <class Camera>
+int scaled_px(int length_px, const Camera& camera) noexcept {
+  return rounded(pixel_scale(camera) * static_cast<float>(length_px));
+}
+
+}  // namespace stillpoint
