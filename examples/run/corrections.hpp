@@ -101,7 +101,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
     clusters.options.own_share = 0.0f;
     // As long along the ray as across it: 40 px at 2 m are 0.15 m.
     clusters.depth_extent_m = 0.15;
-    clusters.depth_extent_growth = 1e-9;
+    clusters.depth_extent_sigmas = 0.0;
   }
   if (without("older-frames")) filter.matcher.older.options.longest_s = 0.0;
   if (without("lost-features")) {

@@ -138,8 +138,9 @@ struct SwitchedClusters : stillpoint::SurfaceClusters {
 struct SwitchedDepth : stillpoint::GuardedDepth {
   bool is_guarded = true;
 
-  double at(const stillpoint::DepthView& depth, const stillpoint::Vector2f& pixel) const noexcept {
-    return is_guarded ? stillpoint::GuardedDepth::at(depth, pixel) : stillpoint::RoundedDepth().at(depth, pixel);
+  template <class Noise = stillpoint::KinectNoise>
+  double at(const stillpoint::DepthView& depth, const stillpoint::Vector2f& pixel, const Noise& noise = {}) const {
+    return is_guarded ? stillpoint::GuardedDepth::at(depth, pixel, noise) : stillpoint::RoundedDepth().at(depth, pixel);
   }
 };
 

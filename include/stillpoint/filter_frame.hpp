@@ -117,7 +117,7 @@ class FrameFilter : private PolicyContract<Policies> {
 
     timings.run(Stage::prior, [&] { prior.regions(frame, regions_); });
     timings.run(Stage::match, [&] {
-      rough_motion = align(matcher, reference, frame, expected, camera);
+      rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
       matcher.match(reference, frame, matches_);
       lift(frame, depth_lookup, camera, depth_noise, matches_.current);
       lift(reference, depth_lookup, camera, depth_noise, matches_.reference);

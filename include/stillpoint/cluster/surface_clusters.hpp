@@ -34,9 +34,9 @@ class SurfaceClusters {
 
   // No options in files.
   std::size_t fewest_clusters = 2;
-  float split_variance = 9.0f;          ///< a cluster whose scores vary less is one population, squared nats
-  double depth_extent_m = 0.0436;       ///< what one unit of the clusters' depth coordinate is, at `kNearest_m` …
-  double depth_extent_growth = 0.0057;  ///< … and per squared metre beyond it: three Kinect sigmas
+  float split_variance = 9.0f;       ///< a cluster whose scores vary less is one population, squared nats
+  double depth_extent_m = 0.04;      ///< what one unit of the clusters' depth coordinate is: a rough surface …
+  double depth_extent_sigmas = 3.0;  ///< … and so many standard deviations of the depth there
 
   static constexpr float kLowest = -2.0f, kHighest = 10.0f;  ///< a single score is held between these, nats
   static constexpr float kAlone = -1.0f;  ///< log-odds of a feature that knows nothing and has no neighbours, nats
@@ -75,7 +75,6 @@ class SurfaceClusters {
   static constexpr std::size_t kFewestMembers = 3;  // of each part of a split
   static constexpr int kMaxIterations = 3;          // of K-means: a fourth and a fifth changed nothing
   static constexpr double kExtent_px = 40.0;        // what one unit of the clusters' lateral coordinates is
-  static constexpr double kNearest_m = 0.4;         // of a depth sensor
   static constexpr float kSplitExplained = 0.8f;    // share of the variance that two populations must explain
   static constexpr float kNeighbour_px = 25.0f;     // how far a feature without evidence looks for others
   static constexpr float kNeighbourShare = 0.7f;    // of their log-odds it takes over
@@ -118,17 +117,14 @@ class SurfaceClusters {
       if (surface_depth_m(matches, i) > 0) member[count++] = static_cast<std::uint32_t>(i);
     if (count == 0) return;
     PointArrays points(count, workspace);
-    // ∫ dz / extent(z) with extent a + b (z − nearest)²: depth in units of its own noise.
-    const double a = depth_extent_m, b = depth_extent_growth;
-    const double inside = std::sqrt(b / a), outside = 1.0 / std::sqrt(a * b);
-    const auto whitened = [&](double depth_m) { return outside * std::atan((depth_m - kNearest_m) * inside); };
+    const span<double> whitened = workspace.take<double>(count);
+    whiten(matches, member.first(count), whitened, workspace);
     for (std::size_t j = 0; j < count; ++j) {
       const std::size_t i = member[j];
       constexpr double kApart = 1000.0;  // regions share no cluster
       const Vector2d lateral =
           matches.current.pixel[i].cast<double>() / (kExtent_px * static_cast<double>(matches.pixel_scale));
-      points.set(j, {lateral.x(), lateral.y(),
-                     whitened(surface_depth_m(matches, i)) + kApart * (regions.of_feature[i].dynamic_region + 1)});
+      points.set(j, {lateral.x(), lateral.y(), whitened[j] + kApart * (regions.of_feature[i].dynamic_region + 1)});
     }
     const std::size_t wanted = std::max(fewest_clusters, count / options.features_per_cluster);
     Random random(kSeed);
@@ -146,6 +142,27 @@ class SurfaceClusters {
     const span<float> values = workspace.take<float>(count);
     for (std::size_t c = 0; c < clusters.centre.size(); ++c)
       share(sorted.subspan(begin[c], begin[c + 1] - begin[c]), scores, values, common);
+  }
+
+  /// Depth in units of its own noise: ∫ dz / extent(z), by the trapezoidal rule over the members in the order of depth.
+  /// One whose depth was not measured has the extent of the next nearer one.
+  void whiten(const Matches& matches, span<const std::uint32_t> member, span<double> whitened,
+              Workspace& workspace) const {
+    const span<std::uint32_t> order = workspace.take<std::uint32_t>(member.size());
+    for (std::size_t j = 0; j < order.size(); ++j) order[j] = static_cast<std::uint32_t>(j);
+    const auto depth_m = [&](std::size_t j) { return surface_depth_m(matches, member[j]); };
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return depth_m(a) != depth_m(b) ? depth_m(a) < depth_m(b) : a < b;
+    });
+    double sum = 0, last_m = depth_m(order[0]), last_density = 1.0 / depth_extent_m;
+    for (const std::uint32_t j : order) {
+      const double extent_m = depth_extent_m + depth_extent_sigmas * matches.current.depth_sigma_m[member[j]];
+      const double density = matches.current.has_depth(member[j]) ? 1.0 / extent_m : last_density;
+      sum += 0.5 * (density + last_density) * (depth_m(j) - last_m);
+      whitened[j] = sum;
+      last_m = depth_m(j);
+      last_density = density;
+    }
   }
 
   /// Writes the mean of the cluster, or of each of its two populations.

@@ -45,6 +45,21 @@ struct RoundedDepth {
   }
 };
 
+namespace detail {
+
+/// The depth at a pixel, by a look-up that knows the sensor's noise or one that does not.
+template <class Lookup, class Noise>
+auto depth_by(const Lookup& lookup, const DepthView& depth, const Vector2f& pixel, const Noise& noise, int)
+    -> decltype(lookup.at(depth, pixel, noise)) {
+  return lookup.at(depth, pixel, noise);
+}
+template <class Lookup, class Noise>
+double depth_by(const Lookup& lookup, const DepthView& depth, const Vector2f& pixel, const Noise&, long) {
+  return lookup.at(depth, pixel);
+}
+
+}  // namespace detail
+
 /// Undistorts the pixels of one side of the matches and looks their depths up.
 /// @param noise a depth noise model, `double sigma(double depth_m)`.
 template <class Lookup, class Camera, class Noise>
@@ -55,7 +70,7 @@ void lift(const FrameView& frame, const Lookup& lookup, const Camera& camera, co
     const Vector2f pixel = observations.pixel[i];
     if (!pixel.allFinite()) continue;
     observations.undistorted[i] = camera.undistort(pixel.template cast<double>());
-    const double depth_m = frame.depth.empty() ? 0.0 : lookup.at(frame.depth, to_depth(pixel));
+    const double depth_m = frame.depth.empty() ? 0.0 : detail::depth_by(lookup, frame.depth, to_depth(pixel), noise, 0);
     observations.set_depth(i, depth_m, depth_m > 0.0 ? noise.sigma(depth_m) : 0.0, camera);
   }
 }

@@ -6,12 +6,15 @@
 
 namespace stillpoint {
 
-/// How much depth may differ on one surface: a constant and a part that grows as depth noise does.
+/// How much depth may differ on one surface: what the surface is rough by, and the sensor's noise. For a Kinect five
+/// standard deviations are within 5 % of what was chosen with one, 0.0076 metres per square metre of depth, from 1 m to
+/// 4 m.
 struct DepthTolerance {
-  double constant_m = 0.05;
-  double per_square_m = 0.0076;  ///< metres per square metre of depth: four Kinect sigmas
+  double roughness_m = 0.05;
+  double sigmas = 5.0;
 
-  double at(double depth_m) const noexcept { return constant_m + per_square_m * depth_m * depth_m; }
+  /// @param depth_sigma_m  of one depth, metres
+  constexpr double at(double depth_sigma_m) const noexcept { return roughness_m + sigmas * depth_sigma_m; }
 };
 
 }  // namespace stillpoint

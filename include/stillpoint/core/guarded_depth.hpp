@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 
@@ -17,28 +18,32 @@ namespace stillpoint {
 /// nothing is interpolated across an edge.
 struct GuardedDepth {
   // No options in files.
-  int fewest_neighbours = 6;         ///< of the nine pixels that must have a depth
-  double jump_m = 0.03;              ///< more difference within the neighbourhood is an edge, at depth 0 …
-  double jump_per_square_m = 0.011;  ///< … and this much more per square metre of depth: six Kinect sigmas
+  int fewest_neighbours = 6;  ///< of the nine pixels that must have a depth
+  double jump_m = 0.03;       ///< more difference within the neighbourhood is an edge …
+  double jump_sigmas = 7.0;   ///< … with this many standard deviations of the depth: the extremes of nine and a slope
 
-  /// @return metres, 0 where there is none.
-  double at(const DepthView& depth, const Vector2f& pixel) const noexcept {
+  /// @param noise  of the sensor, `double sigma(double depth_m)`
+  /// @return       metres, 0 where there is none.
+  template <class Noise = KinectNoise>
+  double at(const DepthView& depth, const Vector2f& pixel, const Noise& noise = {}) const {
     // Also false for NaN, and for what is too far away for an int.
     if (!(depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.5f)) return 0.0;
     const int u = rounded(pixel.x()), v = rounded(pixel.y());
     if (u < 1 || v < 1 || u + 1 >= depth.image.width || v + 1 >= depth.image.height) return 0.0;
-    return depth.image.format == PixelFormat::depth16 ? at<std::uint16_t>(depth, u, v) : at<float>(depth, u, v);
+    return depth.image.format == PixelFormat::depth16 ? of_surface<std::uint16_t>(depth, u, v, noise)
+                                                      : of_surface<float>(depth, u, v, noise);
   }
 
   /// The same at a pixel of the gray image, whose depth image may have another size.
-  double at(const FrameView& frame, const Vector2f& pixel) const noexcept {
-    return frame.depth.empty() ? 0.0 : at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel));
+  template <class Noise = KinectNoise>
+  double at(const FrameView& frame, const Vector2f& pixel, const Noise& noise = {}) const {
+    return frame.depth.empty() ? 0.0 : at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel), noise);
   }
 
  private:
   /// Compared in the units of the image: metres of the extremes alone.
-  template <class Depth>
-  double at(const DepthView& depth, int u, int v) const noexcept {
+  template <class Depth, class Noise>
+  double of_surface(const DepthView& depth, int u, int v, const Noise& noise) const {
     const Depth centre = depth.image.row<Depth>(v)[u];
     if (!is_depth(centre)) return 0.0;
     int neighbours = 0;
@@ -56,7 +61,8 @@ struct GuardedDepth {
     const auto centre_m = static_cast<double>(depth.metres(centre));
     const double difference_m =
         static_cast<double>(depth.metres(farthest)) - static_cast<double>(depth.metres(nearest));
-    return difference_m <= jump_m + jump_per_square_m * centre_m * centre_m ? centre_m : 0.0;
+    const bool is_surface = difference_m <= jump_m || difference_m <= jump_m + jump_sigmas * noise.sigma(centre_m);
+    return is_surface ? centre_m : 0.0;
   }
 
   static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }

@@ -47,7 +47,8 @@ class MaskPrediction {
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f step = matches.current.pixel[i] - matches.reference.pixel[i];
       seen_.push_back({step / static_cast<float>(interval_s), static_cast<float>(matches.current.depth_m[i]),
-                       moves(labels[i]), matches.matched(i)});
+                       static_cast<float>(kSameSurface.at(matches.current.depth_sigma_m[i])), moves(labels[i]),
+                       matches.matched(i)});
     }
   }
 
@@ -85,23 +86,23 @@ class MaskPrediction {
   struct Seen {
     Vector2f velocity_px;  ///< per second, if it was followed
     float depth_m;         ///< 0 where there is none
+    float tolerance_m;     ///< by which depths on its surface may differ
     bool moves;
     bool followed;
   };
   static constexpr int kCell_px = 4;
   static constexpr double kLongestGap_s = 1.0;  // farther ahead nothing is predicted
-  static constexpr DepthTolerance kSameSurface = {0.06, 0.0076};
+  static constexpr DepthTolerance kSameSurface{0.06};
 
-  bool one_surface(float depth_m, float other_m) const noexcept {
-    const double apart_m = std::abs(static_cast<double>(other_m - depth_m));
-    return depth_m > 0 && apart_m <= kSameSurface.at(static_cast<double>(depth_m));
+  static bool one_surface(const Seen& seen, float other_m) noexcept {
+    return seen.depth_m > 0 && std::abs(other_m - seen.depth_m) <= seen.tolerance_m;
   }
 
   /// Do most features near `i` on its surface move as well?
   bool with_surface(std::size_t i, const PixelGrid& around) const {
     int moving = 0, all = 0;
     around.within(pixel_[i], static_cast<float>(options.reach_px), [&](std::size_t j, float) {
-      if (!one_surface(seen_[i].depth_m, seen_[j].depth_m)) return;
+      if (!one_surface(seen_[i], seen_[j].depth_m)) return;
       ++all;
       moving += seen_[j].moves;
     });
@@ -133,7 +134,7 @@ class MaskPrediction {
         const Vector2f pixel = pixel_[i] + Vector2f(static_cast<float>(du), static_cast<float>(dv));
         const Vector2f there = to_depth(pixel);
         const auto u = static_cast<int>(std::lround(there.x())), v = static_cast<int>(std::lround(there.y()));
-        if (depth.image.contains(u, v) && one_surface(seen_[i].depth_m, depth.metres(u, v))) mark_cell(pixel + step);
+        if (depth.image.contains(u, v) && one_surface(seen_[i], depth.metres(u, v))) mark_cell(pixel + step);
       }
     }
   }

@@ -30,10 +30,10 @@ template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise
     std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(),
     std::declval<Matches&>()))>> : std::true_type {};
 
-template <class P, class Camera, class = void> struct aligns : std::false_type {};
-template <class P, class Camera> struct aligns<P, Camera, std::void_t<decltype(std::declval<P&>().align(
+template <class P, class Camera, class Noise, class = void> struct aligns : std::false_type {};
+template <class P, class Camera, class Noise> struct aligns<P, Camera, Noise, std::void_t<decltype(std::declval<P&>().align(
     std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<const Pose&>(),
-    std::declval<const Camera&>()))>> : std::true_type {};
+    std::declval<const Camera&>(), std::declval<const Noise&>()))>> : std::true_type {};
 
 template <class P, class Camera, class = void> struct refines : std::false_type {};
 template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
@@ -59,12 +59,12 @@ template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().rese
 
 /// Before matching: a matcher may align the frames roughly.
 /// @return current_from_reference: what is expected, where it does not
-template <class Matcher, class Camera>
+template <class Matcher, class Camera, class Noise>
 Pose align(Matcher& matcher, const FrameView& reference, const FrameView& current, const MotionPrior& expected,
-           const Camera& camera) {
+           const Camera& camera, const Noise& noise) {
   const Pose guess = expected.current_from_reference ? *expected.current_from_reference : Pose::Identity();
-  if constexpr (aligns<Matcher, Camera>::value)
-    return inverted(matcher.align(reference, current, inverted(guess), camera));
+  if constexpr (aligns<Matcher, Camera, Noise>::value)
+    return inverted(matcher.align(reference, current, inverted(guess), camera, noise));
   else
     return guess;
 }

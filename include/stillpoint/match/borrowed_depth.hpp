@@ -18,10 +18,10 @@ namespace stillpoint {
 /// @param pixel      in the current image, undistorted
 /// @param start_m    supposed depth
 /// @return           depth in the current camera, metres; 0 where nothing was measured or nothing agrees
-template <class Camera>
+template <class Camera, class Noise>
 double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& older,
                         const Pose& reference_from_current, const Camera& camera, const GuardedDepth& guard,
-                        const DepthTolerance& same_surface) {
+                        const Noise& noise, const DepthTolerance& same_surface) {
   constexpr int kRounds = 3;
   constexpr double kNearest_m = 0.1;
   constexpr double kAgreed = 0.1;  // of what depths differ by on one surface
@@ -30,11 +30,11 @@ double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& 
     const Vector3d there = reference_from_current * camera.back_project(pixel, depth_m);
     if (!(there.z() > kNearest_m)) return 0.0;
     const Vector2d seen_at = camera.project(there);
-    const double measured_m = guard.at(older, camera.distort(seen_at).template cast<float>());
+    const double measured_m = guard.at(older, camera.distort(seen_at).template cast<float>(), noise);
     if (!(measured_m > 0)) return 0.0;
     const Vector3d measured = camera.back_project(seen_at, measured_m) - reference_from_current.translation();
     const double now_m = reference_from_current.linear().col(2).dot(measured);
-    if (std::abs(now_m - depth_m) < kAgreed * same_surface.at(depth_m)) return now_m;
+    if (std::abs(now_m - depth_m) < kAgreed * same_surface.at(noise.sigma(depth_m))) return now_m;
     depth_m = now_m;
   }
   return 0.0;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -35,9 +36,9 @@ class CornerTracker {
   /// Aligns the frames roughly: says where `match` begins to look for each corner. To be called before it.
   /// @param reference_from_expected  what is expected of the motion
   /// @return reference_from_current, roughly
-  template <class Camera>
+  template <class Camera, class Noise>
   Pose align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
-             const Camera& camera) {
+             const Camera& camera, const Noise& noise) {
     prepare(reference, current, pixel_scale(camera));
     const Pose guess = coarse_.align(current.depth, current.gray, reference_from_expected, camera);
     const DepthScale to_depth(current.gray, current.depth.image);
@@ -52,7 +53,7 @@ class CornerTracker {
         if (!(there.z() > 0)) return Vector2f(Vector2f::Zero());
         return Vector2f(camera.distort(camera.project(there)).template cast<float>() - corners_[c]);
       };
-      start_[c] = {displacement(guess), displacement(reference_from_expected)};
+      start_[c] = {displacement(guess), displacement(reference_from_expected), kSameSurface.at(noise.sigma(depth_m))};
     }
     return guess;
   }
@@ -65,11 +66,12 @@ class CornerTracker {
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
-      follow(first + c, start_[c].aligned, kFinerLevels, current.depth, matches);
-      if (!matches.matched(first + c)) follow(first + c, start_[c].aligned, current_.size(), current.depth, matches);
+      follow(first + c, start_[c].aligned, kFinerLevels, start_[c].tolerance_m, current.depth, matches);
+      if (!matches.matched(first + c))
+        follow(first + c, start_[c].aligned, current_.size(), start_[c].tolerance_m, current.depth, matches);
       const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > kOtherStart_px;
       if (elsewhere && !matches.matched(first + c))
-        follow(first + c, start_[c].expected, current_.size(), current.depth, matches);
+        follow(first + c, start_[c].expected, current_.size(), start_[c].tolerance_m, current.depth, matches);
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
@@ -86,11 +88,6 @@ class CornerTracker {
   }
 
  private:
-  /// Displacements from which the search of a corner begins, pixels: the second where the first finds nothing.
-  struct Start {
-    Vector2f aligned = Vector2f::Zero(), expected = Vector2f::Zero();
-  };
-
   // Least eigenvalue of a corner, squared gray levels over 5 × 5 pixels of the half-sized image.
   static constexpr float kWeakestCorner = 600.0f;
   static constexpr std::size_t kPyramidLevels = 4;  // with a reach of 3 px on each: 45 px between two frames
@@ -100,6 +97,12 @@ class CornerTracker {
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
   static constexpr float kOtherStart_px = 8.0f;   // a nearer second start finds what the first one finds
+
+  /// Displacements from which the search of a corner begins, pixels: the second where the first finds nothing.
+  struct Start {
+    Vector2f aligned = Vector2f::Zero(), expected = Vector2f::Zero();
+    double tolerance_m = kSameSurface.at(0.0);  ///< by which depths on the corner's surface may differ
+  };
 
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
     return image.border_distance_px(pixel.x(), pixel.y());
@@ -131,9 +134,10 @@ class CornerTracker {
     start_.assign(corners_.size(), Start{});
   }
 
-  /// @param start   displacement from which the search begins, pixels
-  /// @param levels  of the pyramid, from its finest on
-  void follow(std::size_t i, const Vector2f& start, std::size_t levels, const DepthView& depth,
+  /// @param start        displacement from which the search begins, pixels
+  /// @param levels       of the pyramid, from its finest on
+  /// @param tolerance_m  by which depths on the corner's surface may differ
+  void follow(std::size_t i, const Vector2f& start, std::size_t levels, double tolerance_m, const DepthView& depth,
               Matches& matches) const {
     const Vector2f pixel = matches.current.pixel[i];
     Vector2f displacement = start;
@@ -141,7 +145,7 @@ class CornerTracker {
     PatchFit fit;
     for (std::size_t level = std::min(levels, current_.size()); level-- > 0;) {
       const Vector2f cut = rounded(Pyramid::to_level(pixel, level));
-      const PatchMask mask = level == 0 ? PatchMask(depth, pixel, kSameSurface) : PatchMask();
+      const PatchMask mask = level == 0 ? PatchMask(depth, pixel, tolerance_m) : PatchMask();
       fit = PatchFit();
       if (!cut_patch(current_[level], cut, mask, patch)) continue;
       const float scale = static_cast<float>(std::size_t{1} << level);

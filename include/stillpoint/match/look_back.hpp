@@ -93,15 +93,15 @@ class LookBack {
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Matches& matches) const {
     const SurroundingDepth beside =
-        surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard);
+        surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard, noise);
     if (!(beside.farthest_m > 0)) return;
     std::array<double, 2 + OlderFrameChoice::kLooks> candidates{beside.farthest_m, beside.nearest_m};
-    std::size_t count = beside.farthest_m - beside.nearest_m < kSameSurface.at(beside.nearest_m) ? 1 : 2;
+    std::size_t count = beside.farthest_m - beside.nearest_m < kSameSurface.at(noise.sigma(beside.nearest_m)) ? 1 : 2;
     const std::size_t supposed = count;
     for (const OlderFrame& older : std::as_const(matches.sightings).frames()) {
       const double borrowed_m =
           borrowed_depth_m(matches.current.undistorted[i], beside.farthest_m, history.back(older.age).view(),
-                           older.reference_from_current, camera, guard, kSameSurface);
+                           older.reference_from_current, camera, guard, noise, kSameSurface);
       const bool is_known =
           count > supposed && std::abs(borrowed_m - candidates[count - 1]) < kBorrowedSigmas * noise.sigma(borrowed_m);
       if (borrowed_m > 0 && !is_known && count < candidates.size()) candidates[count++] = borrowed_m;
@@ -134,7 +134,8 @@ class LookBack {
     sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
     Patch patch;
     const Vector2f centre = rounded(matches.current.pixel[i]);
-    const bool textured = cut_patch(current.gray, centre, PatchMask(current.depth, depth_m, kSameSurface), patch) &&
+    const bool textured = cut_patch(current.gray, centre,
+                                    PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
                           patch.count >= kFewestPixels;
     const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
     const auto look_at = [&](OlderFrame& older) {

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
@@ -57,14 +56,14 @@ struct PatchFit {
 class PatchMask {
  public:
   PatchMask() = default;  ///< all of them
-  PatchMask(const DepthView& depth, double depth_m, const DepthTolerance& tolerance)
-      : depth_(depth_m > 0 ? &depth : nullptr) {
+  /// @param tolerance_m  by which depths on the surface may differ
+  PatchMask(const DepthView& depth, double depth_m, double tolerance_m) : depth_(depth_m > 0 ? &depth : nullptr) {
     const double units = depth.image.format == PixelFormat::depth16 ? depth.factor : 1.0;
-    nearest_ = static_cast<float>((depth_m - tolerance.at(depth_m)) * units);
-    farthest_ = static_cast<float>((depth_m + tolerance.at(depth_m)) * units);
+    nearest_ = static_cast<float>((depth_m - tolerance_m) * units);
+    farthest_ = static_cast<float>((depth_m + tolerance_m) * units);
   }
-  PatchMask(const DepthView& depth, const Vector2f& pixel, const DepthTolerance& tolerance)
-      : PatchMask(depth, depth_at(depth, pixel), tolerance) {}
+  PatchMask(const DepthView& depth, const Vector2f& pixel, double tolerance_m)
+      : PatchMask(depth, depth_at(depth, pixel), tolerance_m) {}
 
   /// Masks need pixel for pixel the same image.
   bool applies_to(const ImageView& image) const noexcept {

@@ -16,10 +16,10 @@ struct PatchMatcher {
 
   /// Before `match`: a rough motion, from which it begins.
   /// @return reference_from_current
-  template <class Camera>
+  template <class Camera, class Noise>
   Pose align(const FrameView& reference, const FrameView& current, const Pose& reference_from_expected,
-             const Camera& camera) {
-    return corners.align(reference, current, reference_from_expected, camera);
+             const Camera& camera, const Noise& noise) {
+    return corners.align(reference, current, reference_from_expected, camera, noise);
   }
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {

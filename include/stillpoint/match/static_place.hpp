@@ -49,7 +49,7 @@ struct PlaceTest {
     const double margin_m =
         kOcclusion_m + occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
     place.nearer_than_m = place.point.z() - margin_m;
-    const double measured_m = guard.at(past, place.pixel);
+    const double measured_m = guard.at(past, place.pixel, noise);
     if (!(measured_m > 0)) return place;
     place.sighting.depth_m = static_cast<float>(measured_m);
     place.sighting.depth_sigma_m = static_cast<float>(noise.sigma(measured_m));

@@ -28,7 +28,7 @@ struct SurfaceSearch {
                std::vector<SurfaceCell>& surfaces) const {
     const auto point_at = [&](int u, int v) {
       const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
-      return camera.back_project(camera.undistort(pixel.template cast<double>()), guard.at(current, pixel));
+      return camera.back_project(camera.undistort(pixel.template cast<double>()), guard.at(current, pixel, noise));
     };
     surfaces.clear();
     const int step = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
@@ -42,7 +42,7 @@ struct SurfaceSearch {
         if (!(left.z() > 0 && right.z() > 0 && above.z() > 0 && below.z() > 0)) continue;
         const double bend_m =
             std::max(std::abs(left.z() + right.z() - 2 * centre.z()), std::abs(above.z() + below.z() - 2 * centre.z()));
-        if (bend_m > kSmooth.at(centre.z())) continue;
+        if (bend_m > kSmooth.at(noise.sigma(centre.z()))) continue;
         const Vector3d normal = (right - left).cross(below - above).normalized();
         if (!(std::abs(normal.dot(centre.normalized())) > kSteepestCosine)) continue;
         const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
@@ -58,7 +58,7 @@ struct SurfaceSearch {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
     const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>().array().round();
-    const double depth_m = guard.at(older, pixel);
+    const double depth_m = guard.at(older, pixel, noise);
     if (!(depth_m > 0)) return {};
     return {camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m), noise.sigma(depth_m)};
   }

@@ -20,8 +20,9 @@ struct SurroundingDepth {
 };
 
 /// Walks in eight directions to the first pixel with a depth each.
-inline SurroundingDepth surrounding_depth(const FrameView& frame, const Vector2f& pixel, int reach_px,
-                                          const GuardedDepth& guard) noexcept {
+template <class Noise>
+SurroundingDepth surrounding_depth(const FrameView& frame, const Vector2f& pixel, int reach_px,
+                                   const GuardedDepth& guard, const Noise& noise) {
   constexpr int kStep_px = 2;
   constexpr float kDiagonal = 0.70710678f;
   constexpr std::array<std::array<float, 2>, 8> kDirections{{{1, 0},
@@ -35,7 +36,7 @@ inline SurroundingDepth surrounding_depth(const FrameView& frame, const Vector2f
   SurroundingDepth found{std::numeric_limits<double>::infinity(), 0.0};
   for (const auto& [x, y] : kDirections) {
     for (int distance = kStep_px; distance <= reach_px; distance += kStep_px) {
-      const double depth_m = guard.at(frame, pixel + static_cast<float>(distance) * Vector2f(x, y));
+      const double depth_m = guard.at(frame, pixel + static_cast<float>(distance) * Vector2f(x, y), noise);
       if (!(depth_m > 0)) continue;
       found.nearest_m = std::min(found.nearest_m, depth_m);
       found.farthest_m = std::max(found.farthest_m, depth_m);

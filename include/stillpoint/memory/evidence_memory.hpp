@@ -42,23 +42,25 @@ class EvidenceMemory {
     const Workspace::Scope scope(workspace);
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;
     const float feature_px = matches.pixel_scale * kFeature_px;
-    const NeighbourSteps steps(matches, neighbour_px, kSameSurface, workspace);
+    const NeighbourSteps steps(matches, neighbour_px, workspace);
     suspicion_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.suspicion_decay_s));
-    const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px, kSameSurface}, workspace);
+    const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px}, workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
       const double depth_m = matches.current.depth_m[i];
-      const Vector2f pixel =
-          matches.matched(i) ? matches.reference.pixel[i] : steps.before(here, depth_m, matches.predicted[i]);
-      recalled_[i] = look_up(points, pixel, depth_m);
+      const double tolerance_m = kSameSurface.at(matches.current.depth_sigma_m[i]);
+      const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i]
+                                                : steps.before(here, depth_m, tolerance_m, matches.predicted[i]);
+      recalled_[i] = look_up(points, pixel, depth_m, tolerance_m);
       if (settled(matches.was_there[i], matches.trust[i])) recalled_[i].suspicion = 0;
       matches.trust[i] = std::min(matches.trust[i], trust(recalled_[i].suspicion));
       matches.recalled_log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       SurfaceCell& cell = matches.sightings.surfaces[s];
-      const double depth_m = cell.point.z();
-      recalled_of_cell_[s] = look_up(points, steps.before(cell.pixel, depth_m, cell.predicted), depth_m);
+      const double depth_m = cell.point.z(), tolerance_m = kSameSurface.at(cell.depth_sigma_m);
+      recalled_of_cell_[s] =
+          look_up(points, steps.before(cell.pixel, depth_m, tolerance_m, cell.predicted), depth_m, tolerance_m);
       if (settled(cell.was_there, cell.trust)) recalled_of_cell_[s].suspicion = 0;
       cell.trust = std::min(cell.trust, trust(recalled_of_cell_[s].suspicion));
     }
@@ -106,7 +108,7 @@ class EvidenceMemory {
   static constexpr float kNeighbour_px = 25.0f;  // neighbours that hand suspicion on
   static constexpr float kMinority =
       0.25f;  // share of suspect neighbours below which none is handed on; above 1 − this, all
-  static constexpr DepthTolerance kSameSurface = {0.06, 0.0076};
+  static constexpr DepthTolerance kSameSurface{0.06};
 
   struct Memory {
     float log_odds = 0;
@@ -123,8 +125,9 @@ class EvidenceMemory {
 
   static float trust(float suspicion) noexcept { return 1.0f - (1.0f - kLeastTrust) * suspicion; }
 
-  Memory look_up(const RememberedPoints& points, const Vector2f& pixel, double depth_m) const {
-    const RememberedPoints::Sums near = points.around(pixel, static_cast<float>(depth_m));
+  Memory look_up(const RememberedPoints& points, const Vector2f& pixel, double depth_m, double tolerance_m) const {
+    const RememberedPoints::Sums near =
+        points.around(pixel, static_cast<float>(depth_m), static_cast<float>(tolerance_m));
     Memory memory;
     if (near.feature_weight > 0) memory.log_odds = near.log_odds / near.feature_weight;
     if (near.votes > 0) {

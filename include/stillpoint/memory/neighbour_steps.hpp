@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <limits>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
@@ -21,20 +20,19 @@ namespace stillpoint {
 class NeighbourSteps {
  public:
   /// @param reach_px  how far a neighbour may be
-  NeighbourSteps(const Matches& matches, float reach_px, const DepthTolerance& same_surface, Workspace& workspace)
+  NeighbourSteps(const Matches& matches, float reach_px, Workspace& workspace)
       : matches_(matches),
         reach_px_(reach_px),
-        same_surface_(same_surface),
         grid_(matches.current.pixel, reach_px, workspace, [&](std::size_t i) { return matches.matched(i); }) {}
 
   /// The pixel in the reference frame, by the step of the nearest neighbour on the same surface.
-  /// @param depth_m     0 none
+  /// @param depth_m      0 none
+  /// @param tolerance_m  by which depths on its surface may differ
   /// @param if_static   where it was if it stands still: the answer where there is no such neighbour
-  Vector2f before(const Vector2f& pixel, double depth_m, const Vector2f& if_static) const {
+  Vector2f before(const Vector2f& pixel, double depth_m, double tolerance_m, const Vector2f& if_static) const {
     if (!(depth_m > 0)) return if_static;
     float nearest = std::numeric_limits<float>::infinity();
     Vector2f found = if_static;
-    const double tolerance_m = same_surface_.at(depth_m);
     grid_.within(pixel, reach_px_, [&](std::size_t j, float squared) {
       if (!(squared < nearest) || !(std::abs(matches_.current.depth_m[j] - depth_m) <= tolerance_m)) return;
       nearest = squared;
@@ -46,7 +44,6 @@ class NeighbourSteps {
  private:
   const Matches& matches_;
   float reach_px_;
-  DepthTolerance same_surface_;
   PixelGrid grid_;
 };
 

@@ -8,7 +8,6 @@
 
 #include <cstddef>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/span.hpp"
@@ -29,7 +28,6 @@ struct RememberedPoint {
 struct NeighbourWeights {
   float reach_px = 25.0f;    ///< those within have a vote in the suspicion
   float feature_px = 15.0f;  ///< those within may be the same feature
-  DepthTolerance same_surface;
 };
 
 /// The points of one frame, sorted for look-ups. Lives in the workspace.
@@ -63,14 +61,15 @@ class RememberedPoints {
     }
   }
 
-  /// @param depth_m  0 none
-  Sums around(const Vector2f& pixel, float depth_m) const {
+  /// @param depth_m      0 none
+  /// @param tolerance_m  by which depths on its surface may differ
+  Sums around(const Vector2f& pixel, float depth_m, float tolerance_m) const {
     using cv::v_float32x4;
     const auto all = [](float value) { return cv::v_setall_f32(value); };
     const v_float32x4 zero = all(0.0f), one = all(1.0f), x = all(pixel.x()), y = all(pixel.y()), depth = all(depth_m);
     const v_float32x4 per_reach = all(1.0f / (weights_.reach_px * weights_.reach_px)),
                       per_feature = all(1.0f / (weights_.feature_px * weights_.feature_px));
-    const v_float32x4 tolerance = all(static_cast<float>(weights_.same_surface.at(static_cast<double>(depth_m))));
+    const v_float32x4 tolerance = all(tolerance_m);
     // One with a depth, one without: perhaps the same surface. In the vote they only count where there are no others.
     const v_float32x4 other_kind = all(0.2f), vote_of_other_kind = all(0.02f);
     const v_float32x4 has_depth = depth > zero, lane(0.0f, 1.0f, 2.0f, 3.0f);

@@ -37,6 +37,7 @@ class SurfaceClustersTest : public testing::Test {
     matches_.resize(i + 1);
     matches_.current.pixel[i] = pixel;
     matches_.current.depth_m[i] = depth_m;
+    if (depth_m > 0) matches_.current.depth_sigma_m[i] = 0.004;
     scores_.emplace_back();
     scores_.back().value = score;
   }
@@ -112,6 +113,22 @@ TEST_F(SurfaceClustersTest, SurfacesAtDifferentDepthsAreDifferentClusters) {
     EXPECT_NEAR(labels_[i].log_odds, i % 2 == 0 ? 0.5f : -1.0f, kRounding);
   }
   EXPECT_NE(labels_[0].cluster, labels_[1].cluster);
+}
+
+// Two surfaces of depth 2 and 2.5 m side by side: for a sensor of 4 mm they are two clusters, 0.5 / (0.04 + 3 · 0.004)
+// = 9.6 units apart and 20 px / 40 px wide; for one of 0.4 m all noise is 0.5 / 1.24 = 0.4 units, less than the width.
+TEST_F(SurfaceClustersTest, DepthSeparatesInUnitsOfItsNoise) {
+  clusters_.fewest_clusters = 2;
+  for (int i = 0; i < 40; ++i) add({100 + 2.0f * static_cast<float>(i), 100}, i % 2 == 0 ? 2.0 : 2.5, 0.0f);
+  const auto split_by_depth = [this](double sigma_m) {
+    for (double& sigma : matches_.current.depth_sigma_m) sigma = sigma_m;
+    classify();
+    for (std::size_t i = 2; i < 40; ++i)
+      if (labels_[i].cluster != labels_[i % 2].cluster) return false;
+    return labels_[0].cluster != labels_[1].cluster;
+  };
+  EXPECT_TRUE(split_by_depth(0.004));
+  EXPECT_FALSE(split_by_depth(0.4));
 }
 
 TEST_F(SurfaceClustersTest, ThereAreAtLeastTheFewestClusters) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
 namespace stillpoint::guarded_depth_test {
@@ -27,12 +28,12 @@ struct Wall {
   DepthView view() const { return ImageView(metres.data(), 6, 5, 6 * sizeof(float), PixelFormat::depth32f); }
 };
 
-/// An edge is more than 0.02 + 0.01 · 4 = 0.06 m at 2 m.
+/// An edge is more than 0.02 m + 6.6 σ, with a Kinect's 0.0012 + 0.0019 (z − 0.4)²: 0.060 m at 2 m.
 GuardedDepth guarded() {
   GuardedDepth lookup;
   lookup.fewest_neighbours = 6;
   lookup.jump_m = 0.02;
-  lookup.jump_per_square_m = 0.01;
+  lookup.jump_sigmas = 6.6;
   return lookup;
 }
 
@@ -63,7 +64,7 @@ TEST(GuardedDepth, ThereIsNoneAtAJump) {
   EXPECT_EQ(lookup.at(slope.view(), {2, 2}), 0.0);
 }
 
-// 0.02 + 0.01 z² is 0.03 at 1 m and 0.11 at 3 m.
+// 0.02 + 6.6 σ is 0.032 at 1 m and 0.113 at 3 m.
 TEST(GuardedDepth, AJumpIsMeasuredByTheNoiseOfItsDepth) {
   const GuardedDepth lookup = guarded();
   for (const auto& [depth, step, is_edge] :
@@ -73,6 +74,18 @@ TEST(GuardedDepth, AJumpIsMeasuredByTheNoiseOfItsDepth) {
     wall.at(2, 1) = depth + step;
     EXPECT_EQ(lookup.at(wall.view(), {2, 2}) == 0.0, is_edge) << depth << " + " << step;
   }
+}
+
+// A stereo pair of f b = 50 px m and 0.25 px has σ = 0.005 z²: at 2 m an edge is more than 0.02 + 6.6 · 0.02 = 0.152 m.
+TEST(GuardedDepth, AJumpIsMeasuredByTheNoiseOfTheSensorAtHand) {
+  const GuardedDepth lookup = guarded();
+  const StereoNoise stereo{500.0, 0.1, 0.25};
+  Wall wall;
+  wall.at(2, 1) = 2.14f;
+  EXPECT_EQ(lookup.at(wall.view(), {2, 2}), 0.0) << "an edge for a Kinect";
+  EXPECT_EQ(lookup.at(wall.view(), {2, 2}, stereo), 2.0);
+  wall.at(2, 1) = 2.16f;
+  EXPECT_EQ(lookup.at(wall.view(), {2, 2}, stereo), 0.0);
 }
 
 TEST(GuardedDepth, ThereIsNoneAtAHole) {

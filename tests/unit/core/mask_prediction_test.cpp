@@ -24,6 +24,7 @@ class MaskPredictionTest : public testing::Test {
     matches.resize(i + 1);
     matches.current.pixel[i] = to;
     matches.current.depth_m[i] = depth_m;
+    if (depth_m > 0) matches.current.depth_sigma_m[i] = 0.006;
     matches.reference.pixel[i] = from;
     matches.state[i] = MatchState::matched;
     Label label;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/opencv.hpp"
 #include "wave_texture.hpp"
@@ -77,7 +78,7 @@ TEST(Patch, LeavesOutWhatLiesOnAnotherSurface) {
   depth.colRange(8, 20).setTo(1.0);
   const DepthView view(depth);
   Patch patch;
-  ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, 2.0, DepthTolerance()), patch));
+  ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, 2.0, 0.08), patch));
   EXPECT_EQ(patch.count, 48);
   for (std::size_t k = 0; k < 64; ++k) EXPECT_EQ(patch.mask[k], k % 8 < 6 ? -1 : 0) << k;
   EXPECT_EQ(patch.sum, 48 * 9 / 2);
@@ -86,14 +87,14 @@ TEST(Patch, LeavesOutWhatLiesOnAnotherSurface) {
   EXPECT_EQ(patch.slope_x[7], 0);
   // The centre's own depth gives the same.
   Patch again;
-  ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, Vector2f(6, 8), DepthTolerance()), again));
+  ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, Vector2f(6, 8), 0.08), again));
   EXPECT_EQ(again.mask.pixel, patch.mask.pixel);
 }
 
-// Tolerance at 2 m: 0.05 + 0.0076 · 4 = 0.0804 m.
+// A tolerance of 0.05 m and five standard deviations of 6.08 mm: 0.0804 m.
 TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
-  constexpr DepthTolerance kTolerance{0.05, 0.0076};
-  EXPECT_NEAR(kTolerance.at(2.0), 0.0804, 1e-12);
+  constexpr double kTolerance_m = DepthTolerance{0.05, 5.0}.at(0.00608);
+  EXPECT_NEAR(kTolerance_m, 0.0804, 1e-12);
   const cv::Mat row = (cv::Mat_<float>(1, 8) << 2.0f, 2.0803f, 2.0805f, 1.9197f, 1.9195f, 0.0f, kInfinity, kNaN);
   const cv::Mat metres = cv::repeat(row, 8, 1);
   cv::Mat tenths;  // of a millimetre
@@ -101,7 +102,7 @@ TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
   tenths.colRange(6, 8) = 0;
   for (const DepthView& view : {DepthView(metres), DepthView(tenths, 10000.0)}) {
     PatchPixels mask;
-    PatchMask(view, 2.0, kTolerance).fill(0, 0, mask);
+    PatchMask(view, 2.0, kTolerance_m).fill(0, 0, mask);
     const int expected[8] = {-1, -1, 0, -1, 0, -1, -1, -1};
     for (std::size_t k = 0; k < 64; ++k) EXPECT_EQ(mask[k], expected[k % 8]) << k;
   }
@@ -110,9 +111,9 @@ TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
 TEST(PatchMask, NeedsADepthAndAnImageOfItsSize) {
   const cv::Mat depth(10, 12, CV_32FC1, cv::Scalar(2.0)), image(10, 12, CV_8UC1), other(20, 24, CV_8UC1);
   const DepthView view(depth), none;
-  EXPECT_TRUE(PatchMask(view, 2.0, {}).applies_to(image));
-  EXPECT_FALSE(PatchMask(view, 2.0, {}).applies_to(other));
-  EXPECT_FALSE(PatchMask(view, 0.0, {}).applies_to(image)) << "no depth";
+  EXPECT_TRUE(PatchMask(view, 2.0, 0.08).applies_to(image));
+  EXPECT_FALSE(PatchMask(view, 2.0, 0.08).applies_to(other));
+  EXPECT_FALSE(PatchMask(view, 0.0, 0.08).applies_to(image)) << "no depth";
   EXPECT_FALSE(PatchMask(view, Vector2f(12, 3), {}).applies_to(image)) << "outside";
   EXPECT_FALSE(PatchMask(none, Vector2f(3, 3), {}).applies_to(image));
   EXPECT_FALSE(PatchMask().applies_to(image));

@@ -8,6 +8,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
+#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint {
@@ -23,7 +24,7 @@ class SurroundingDepthTest : public testing::Test {
   }
 
   SurroundingDepth at(const Vector2f& pixel, int reach_px) const {
-    return surrounding_depth(FrameView(gray_, DepthView(depth_), 0.0), pixel, reach_px, GuardedDepth());
+    return surrounding_depth(FrameView(gray_, DepthView(depth_), 0.0), pixel, reach_px, GuardedDepth(), KinectNoise());
   }
 
   cv::Mat gray_ = cv::Mat(80, 100, CV_8UC1, cv::Scalar(0)), depth_ = cv::Mat(80, 100, CV_32FC1);
@@ -47,7 +48,9 @@ TEST_F(SurroundingDepthTest, EndsAtItsReach) {
 TEST_F(SurroundingDepthTest, WithoutDepthOrPixelThereIsNothing) {
   EXPECT_EQ(at({std::numeric_limits<float>::quiet_NaN(), 40}, 20).farthest_m, 0.0);
   EXPECT_EQ(at({1e30f, -1e30f}, 20).farthest_m, 0.0);
-  EXPECT_EQ(surrounding_depth(FrameView(gray_, DepthView(), 0.0), {50, 40}, 20, GuardedDepth()).farthest_m, 0.0);
+  EXPECT_EQ(
+      surrounding_depth(FrameView(gray_, DepthView(), 0.0), {50, 40}, 20, GuardedDepth(), KinectNoise()).farthest_m,
+      0.0);
 }
 
 }  // namespace

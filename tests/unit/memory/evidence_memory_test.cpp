@@ -44,7 +44,10 @@ class EvidenceMemoryTest : public testing::Test {
     for (const Feature& feature : features) pixels.push_back(feature.pixel);
     matches_.begin(pixels);
     matches_.elapsed_s = elapsed_s_;
-    for (std::size_t i = 0; i < features.size(); ++i) matches_.current.depth_m[i] = features[i].depth_m;
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      matches_.current.depth_m[i] = features[i].depth_m;
+      matches_.current.depth_sigma_m[i] = 0.008;  // one surface: within 0.06 + 5 · 0.008 = 0.1 m
+    }
     matches_.sightings.surfaces = surfaces_;
     memory_.recall(matches_, workspace_);
     labels_.assign(features.size(), Label{});
@@ -176,6 +179,7 @@ TEST_F(EvidenceMemoryTest, AFeatureThatNobodyFollowedIsLookedUpWhereItsSurfaceWa
     matches_.state[1] = MatchState::matched;
     matches_.current.depth_m[0] = 2.0;
     matches_.current.depth_m[1] = corner_depth_m;
+    matches_.current.depth_sigma_m.assign(2, 0.008);
     memory_.recall(matches_, workspace_);
     EXPECT_NEAR(matches_.recalled_log_odds[0] * 0.5f, recalled, kRounding) << corner_depth_m;
   }
@@ -272,6 +276,7 @@ TEST_F(EvidenceMemoryTest, WhatHasStoodForSecondsIsSuspectedNoMore) {
     matches_.begin(pixels);
     matches_.elapsed_s = kElapsed_s;
     matches_.current.depth_m[0] = 2.0;
+    matches_.current.depth_sigma_m[0] = 0.008;
     matches_.was_there[0] = static_cast<std::uint8_t>(was_there);
     matches_.trust[0] = trust;
     matches_.sightings.surfaces = {cell(50, 2.0)};

@@ -16,13 +16,14 @@
 namespace stillpoint {
 namespace {
 
-constexpr NeighbourWeights kWeights = {25.0f, 15.0f, {0.06, 0.01}};  // one surface at 2 m: within 0.1 m
+constexpr NeighbourWeights kWeights = {25.0f, 15.0f};
+constexpr float kTolerance_m = 0.1f;  // of one surface
 
 RememberedPoints::Sums sums_around(const std::vector<RememberedPoint>& points, const Vector2f& pixel, float depth_m) {
   std::vector<Vector2f> pixels;
   for (const RememberedPoint& point : points) pixels.push_back(point.pixel);
   Workspace workspace;
-  return RememberedPoints(pixels, points, kWeights, workspace).around(pixel, depth_m);
+  return RememberedPoints(pixels, points, kWeights, workspace).around(pixel, depth_m, kTolerance_m);
 }
 
 /// One point after the other, as the weights are told.
@@ -32,8 +33,7 @@ RememberedPoints::Sums one_by_one(const std::vector<RememberedPoint>& points, co
     if (!point.pixel.allFinite()) continue;
     const float squared = (point.pixel - pixel).squaredNorm();
     const bool same_kind = (depth_m > 0) == (point.depth_m > 0);
-    const auto tolerance_m = static_cast<float>(kWeights.same_surface.at(static_cast<double>(depth_m)));
-    if (same_kind && std::abs(depth_m - point.depth_m) > tolerance_m) continue;
+    if (same_kind && std::abs(depth_m - point.depth_m) > kTolerance_m) continue;
     const float vote = std::max(0.0f, 1 - squared / (25.0f * 25.0f)) * (same_kind ? 1.0f : 0.02f);
     sums.votes += vote;
     sums.suspicion += vote * point.suspicion;

@@ -281,7 +281,7 @@ TEST_F(OptionsFile, OfAnOldFileEachNameThatIsGoneIsListed) {
             ": 4 options are gone; delete or rename\n  gate.decay: fixed at 0.8: nats, measured with the whole filter\n"
             "  memory.persistence: memory.log_odds_decay_s\n"
             "  memory.same_surface.constant_m: fixed at 0.06: roughness of a surface\n"
-            "  memory.same_surface.per_square_m: fixed at 0.0076: four sigmas of a Kinect's depth");
+            "  memory.same_surface.per_square_m: depth_noise.model");
   EXPECT_EQ(filter.gate.options.false_positive_rate, TailGate::Options{}.false_positive_rate);
   EXPECT_NE(error("memory:\n   same_surface:\n      constant_m: 1.\n      slope: 1.\n").find("same_surface is unknown"),
             std::string::npos)
