@@ -83,6 +83,10 @@ struct Matches {
 
   std::size_t size() const noexcept { return state.size(); }
 
+  /// The first feature that speaks for the camera's motion in older frames: of the matcher's own corners, spread over
+  /// the image; of the host's features where it appends none.
+  std::size_t first_support() const noexcept { return size() > host_count ? host_count : 0; }
+
   bool matched(std::size_t i) const noexcept {
     return state[i] == MatchState::matched || state[i] == MatchState::near_edge;
   }

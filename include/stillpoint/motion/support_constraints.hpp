@@ -14,6 +14,7 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/area_support.hpp"
 #include "stillpoint/motion/reprojection_residual.hpp"
 
 namespace stillpoint {
@@ -27,6 +28,7 @@ struct SupportConstraints {
   double dynamic_trust = 0.15;    ///< weight of what lies in a dynamic region
   double movable_trust = 0.6;     ///< and in a movable one
   double surface_weight = 0.8;    ///< of a surface cell: depth errors of neighbours are not independent
+  float cell_px = 24.0f;          ///< of the host's features one per cell of this size speaks, where they support
   float most_dissimilar = 0.25f;  ///< a sighting that is less alike says nothing of the motion
 
   /// The matches with the reference frame. `features[k]` is the feature of constraint k.
@@ -35,9 +37,10 @@ struct SupportConstraints {
                                      span<std::uint32_t> features, Workspace& workspace) const {
     const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
     const double typical_m = typical_depth_m(matches, workspace);
+    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * cell_px, workspace);
     std::size_t count = 0;
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (!matches.matched(i)) continue;
+      if (!matches.matched(i) || speaks[i] == 0) continue;
       features[count] = static_cast<std::uint32_t>(i);
       points[count++] = from_match(matches, regions, i, typical_m, camera);
     }
@@ -49,16 +52,18 @@ struct SupportConstraints {
   span<PointConstraint> from_sightings(const Matches& matches, const Regions& regions, const Camera& camera,
                                        Workspace& workspace) const {
     const span<const OlderFrame> frames = matches.sightings.frames();
-    const std::size_t corners = matches.size() - matches.host_count;
+    const std::size_t corners = matches.size() - matches.first_support();
     const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
     const double typical_m = typical_depth_m(matches, workspace);
+    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * cell_px, workspace);
     std::size_t count = 0;
-    for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-      if (matches.matched(i) && !matches.current.has_depth(i))
+    for (std::size_t i = matches.first_support(); i < matches.size(); ++i)
+      if (speaks[i] != 0 && matches.matched(i) && !matches.current.has_depth(i))
         points[count++] = from_match(matches, regions, i, typical_m, camera);
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
+      for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
         const Sighting& sighting = frames[f].of_feature[i];
+        if (speaks[i] == 0 || !matches.current.has_depth(i)) continue;
         if (sighting.state != SightingState::seen || !(sighting.dissimilarity < most_dissimilar)) continue;
         points[count++] =
             at_depth(matches, regions, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),

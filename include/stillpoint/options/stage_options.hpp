@@ -117,6 +117,7 @@ void each_option(SupportConstraints& constraints, Visit& visit) {
   visit("dynamic_trust", constraints.dynamic_trust);
   visit("movable_trust", constraints.movable_trust);
   visit("surface_weight", constraints.surface_weight);
+  visit("cell_px", constraints.cell_px);
   visit("most_dissimilar", constraints.most_dissimilar);
 }
 

@@ -132,7 +132,9 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(BoxPrior()), field_count<BoxPrior::Options>());
   EXPECT_EQ(visited(PropagatedPrior()), visited(ForegroundPrior()) + field_count<PropagatedPrior::Carrying>());
   EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());
-  EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>());
+  EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>() + 3) << "older, places, surfaces";
+  EXPECT_EQ(visited(OlderFrameChoice()), field_count<OlderFrameChoice>());
+  EXPECT_EQ(visited(PlaceTest()), field_count<PlaceTest>());
   EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
   EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 2) << "guard and surfaces";
   EXPECT_EQ(visited(PatchSearch()), field_count<PatchSearch>() - 1) << "the warp is none";
