@@ -75,6 +75,7 @@ class ProvidedMatches {
   void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
               const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) {
     if (history.capacity() < 2) return;
+    matches.host_supports = true;
     tracks_.push(matches, history.capacity(), options.same_point_px, workspace);
     older.choose(history, current, camera, matches, workspace);
     find_tracks_beside_occluders(current, camera, noise, matches);
