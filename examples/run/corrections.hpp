@@ -69,7 +69,10 @@ void switch_stages([[maybe_unused]] const Without& without,
     filter.classifier.tests_all = !without("all-features");
     filter.matcher.supports_by_area = !without("area-support");
     filter.depth_lookup.is_guarded = !without("depth-guard");
-    if (without("area-support")) filter.ego_motion.support.constraints.surface_weight = 0.0;
+    if (without("area-support")) {
+      filter.ego_motion.support.constraints.surface_weight = 0.0;
+      filter.ego_motion.support.constraints.cell_px = 0.0f;
+    }
   }
 }
 

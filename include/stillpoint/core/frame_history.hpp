@@ -37,6 +37,7 @@ class FrameHistory {
   explicit FrameHistory(std::size_t capacity = 1) : ring_(std::max<std::size_t>(capacity, 1)) {}
 
   std::size_t size() const noexcept { return size_; }
+  std::size_t capacity() const noexcept { return ring_.size(); }
   bool empty() const noexcept { return size_ == 0; }
   void clear() noexcept {
     size_ = 0;

@@ -69,6 +69,8 @@ float pixel_scale(const Camera& camera) noexcept {
 /// corners of its own behind them, which take part in every stage and in no result.
 struct Matches {
   std::size_t host_count = 0;
+  bool host_supports =
+      false;  ///< a matcher without corners of its own: one host's feature per cell supports the motion
   /// Focal length over 525 px, a Kinect's: lengths in pixels among the options are for that and scale with it.
   float pixel_scale = 1.0f;
   double elapsed_s = 0;  ///< from the reference frame to the current one
@@ -83,6 +85,10 @@ struct Matches {
 
   std::size_t size() const noexcept { return state.size(); }
 
+  /// The first feature that speaks for the camera's motion in older frames: of the matcher's own corners, spread over
+  /// the image; of the host's features where `host_supports`.
+  std::size_t first_support() const noexcept { return host_supports ? 0 : host_count; }
+
   bool matched(std::size_t i) const noexcept {
     return state[i] == MatchState::matched || state[i] == MatchState::near_edge;
   }
@@ -92,6 +98,7 @@ struct Matches {
   /// Makes room for the host's key points and forgets everything else.
   void begin(span<const Vector2f> pixels) {
     host_count = pixels.size();
+    host_supports = false;
     current.resize(0);
     reference.resize(0);
     state.clear();

@@ -41,6 +41,7 @@ class CornerTracker {
              const Camera& camera, const Noise& noise) {
     prepare(reference, current, pixel_scale(camera));
     const Pose guess = coarse_.align(current.depth, current.gray, reference_from_expected, camera);
+    is_aligned_ = true;
     const DepthScale to_depth(current.gray, current.depth.image);
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       const Vector2f at = to_depth(corners_[c]);
@@ -66,7 +67,8 @@ class CornerTracker {
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
-      follow(first + c, start_[c].aligned, kFinerLevels, start_[c].tolerance_m, current.depth, matches);
+      follow(first + c, start_[c].aligned, is_aligned_ ? kFinerLevels : current_.size(), start_[c].tolerance_m,
+             current.depth, matches);
       if (!matches.matched(first + c))
         follow(first + c, start_[c].aligned, current_.size(), start_[c].tolerance_m, current.depth, matches);
       const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > kOtherStart_px;
@@ -111,6 +113,7 @@ class CornerTracker {
   /// Pyramids of both frames, and the corners of the current one. Once for each frame.
   void prepare(const FrameView& reference, const FrameView& current, float scale) {
     if (current_time_s_ == current.timestamp_s) return;
+    is_aligned_ = false;
     if (!(reference_time_s_ == reference.timestamp_s)) {
       reference_.build(reference.gray, kPyramidLevels);
       coarse_.add_frame(reference_);
@@ -165,6 +168,7 @@ class CornerTracker {
   double current_time_s_ = std::numeric_limits<double>::quiet_NaN();
   CoarseAlignment coarse_;
   std::vector<Vector2f> corners_;
+  bool is_aligned_ = false;
   std::vector<Start> start_;  // of each corner's search
   Workspace workspace_;
 };

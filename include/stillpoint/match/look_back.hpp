@@ -52,7 +52,8 @@ class LookBack {
     look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.sightings.surfaces,
                       frames.first(std::min<std::size_t>(frames.size(), 1)));
     if (!frames.empty()) predict_places(frames[0].reference_from_current, camera, matches);
-    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise, matches);
+    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
+                             surfaces.scaled_step_px(camera), matches, workspace);
   }
 
   /// Looks for the surfaces once more, and for the features.

@@ -15,6 +15,8 @@
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/space_history.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/match/surface_neighbours.hpp"
 
 namespace stillpoint {
 
@@ -36,10 +38,13 @@ class SpaceSearch {
   }
 
   /// Before the motion is known well: support corners and surfaces that came within the past seconds have little say in
-  /// it. A view that sees through most of the surfaces is one whose pose is wrong: it says nothing.
+  /// it. A view that sees through most of the surfaces is one whose pose is wrong: it says nothing. What no view saw
+  /// before belongs to the surface beside it.
+  /// @param step_px  spacing of the surfaces' cells
   template <class Camera, class Noise>
   void distrust_what_came(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_expected,
-                          const Camera& camera, const Noise& noise, Matches& matches) const {
+                          const Camera& camera, const Noise& noise, int step_px, Matches& matches,
+                          Workspace& workspace) const {
     const span<SurfaceCell> cells = matches.sightings.surfaces;
     for_each_view(history, timestamp_s, filter_from_expected, camera, noise, [&](double elapsed_s, const auto& look) {
       std::size_t through = 0, there = 0;
@@ -58,6 +63,7 @@ class SpaceSearch {
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
         if (matches.current.has_depth(i)) judge(look(matches.current.point[i]), matches.trust[i], matches.was_there[i]);
     });
+    spread_distrust(static_cast<float>(step_px), camera.fx(), matches, workspace);
   }
 
  private:
@@ -69,7 +75,40 @@ class SpaceSearch {
   static constexpr double kMostCame = 0.6;          // share of the surfaces: people hide half of a room, rarely more
   static constexpr double kSettled_s = 2.2;         // what was there so long ago is no newcomer
   static constexpr float kTrustOfWhatCame = 0.05f;  // as that of what was seen moving for some frames
+  static constexpr int kSpreadCells = 12;           // half of an image's width
   static constexpr double kNearest_m = 0.1;
+
+  /// A cell that no view knows takes the majority's side of those that adjoin it, round by round.
+  static void spread_distrust(float step_px, double focal_px, Matches& matches, Workspace& workspace) {
+    const span<SurfaceCell> cells = matches.sightings.surfaces;
+    if (cells.empty()) return;
+    const Workspace::Scope scope(workspace);
+    const SurfaceNeighbours neighbours(cells, step_px, focal_px, workspace);
+    enum class Side : std::uint8_t { nobody_knows, came, stood };
+    const span<Side> side = workspace.take<Side>(cells.size());
+    const span<Side> next = workspace.take<Side>(cells.size());
+    for (std::size_t s = 0; s < cells.size(); ++s)
+      side[s] = cells[s].trust < 1.0f ? Side::came : cells[s].was_there > 0 ? Side::stood : Side::nobody_knows;
+    const auto majority = [&](const Vector2f& pixel, double depth_m) {
+      int came = 0, stood = 0;
+      neighbours.around(pixel, depth_m, [&](std::size_t s) {
+        came += side[s] == Side::came;
+        stood += side[s] == Side::stood;
+      });
+      return came > stood ? Side::came : stood > came ? Side::stood : Side::nobody_knows;
+    };
+    for (int round = 0; round < kSpreadCells; ++round) {
+      for (std::size_t s = 0; s < cells.size(); ++s)
+        next[s] = side[s] == Side::nobody_knows ? majority(cells[s].pixel, cells[s].point.z()) : side[s];
+      std::copy(next.begin(), next.end(), side.begin());
+    }
+    for (std::size_t i = matches.host_count; i < matches.size(); ++i)
+      if (matches.current.has_depth(i) && matches.trust[i] >= 1.0f && matches.was_there[i] == 0 &&
+          majority(matches.current.pixel[i], matches.current.depth_m[i]) == Side::came)
+        matches.trust[i] = kTrustOfWhatCame;
+    for (std::size_t s = 0; s < cells.size(); ++s)
+      if (side[s] == Side::came) cells[s].trust = std::min(cells[s].trust, kTrustOfWhatCame);
+  }
 
   /// Calls `visit(elapsed_s, look)` for each view that is old enough; `look(point)` tells what it saw in a place.
   template <class Camera, class Noise, class Visit>

@@ -31,7 +31,7 @@ struct SurfaceSearch {
       return camera.back_project(camera.undistort(pixel.template cast<double>()), guard.at(current, pixel, noise));
     };
     surfaces.clear();
-    const int step = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
+    const int step = scaled_step_px(camera);
     const int reach = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(kReach_px)));
     for (int v = step / 2; v < current.gray.height; v += step) {
       for (int u = step / 2; u < current.gray.width; u += step) {
@@ -49,6 +49,12 @@ struct SurfaceSearch {
         surfaces.push_back({pixel, centre, normal, noise.sigma(centre.z()), 1.0f});
       }
     }
+  }
+
+  /// Spacing of the cells, in whole pixels of this camera.
+  template <class Camera>
+  int scaled_step_px(const Camera& camera) const noexcept {
+    return std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
   }
 
   /// The surface that an older frame shows where a standing cell would have been.

@@ -41,7 +41,7 @@ struct StandingCamera {
       if (frame.reference_from_current.matrix() == Pose::Identity().matrix()) oldest = &frame;
     if (oldest == nullptr) return true;
     Census census;
-    for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
+    for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
       const Sighting& sighting = oldest->of_feature[i];
       if (sighting.state != SightingState::seen || !(sighting.dissimilarity < 2.0f)) continue;
       const double moved_px = (matches.current.undistorted[i] - sighting.found.cast<double>()).norm();

@@ -14,6 +14,7 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/area_support.hpp"
 #include "stillpoint/motion/reprojection_residual.hpp"
 
 namespace stillpoint {
@@ -33,9 +34,10 @@ struct SupportConstraints {
                                      span<std::uint32_t> features, Workspace& workspace) const {
     const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
     const double typical_m = typical_depth_m(matches, workspace);
+    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * kHostCell_px, workspace);
     std::size_t count = 0;
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (!matches.matched(i)) continue;
+      if (!matches.matched(i) || speaks[i] == 0) continue;
       features[count] = static_cast<std::uint32_t>(i);
       points[count++] = from_match(matches, regions, i, typical_m, camera);
     }
@@ -47,16 +49,18 @@ struct SupportConstraints {
   span<PointConstraint> from_sightings(const Matches& matches, const Regions& regions, const Camera& camera,
                                        Workspace& workspace) const {
     const span<const OlderFrame> frames = matches.sightings.frames();
-    const std::size_t corners = matches.size() - matches.host_count;
+    const std::size_t corners = matches.size() - matches.first_support();
     const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
     const double typical_m = typical_depth_m(matches, workspace);
+    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * kHostCell_px, workspace);
     std::size_t count = 0;
-    for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-      if (matches.matched(i) && !matches.current.has_depth(i))
+    for (std::size_t i = matches.first_support(); i < matches.size(); ++i)
+      if (speaks[i] != 0 && matches.matched(i) && !matches.current.has_depth(i))
         points[count++] = from_match(matches, regions, i, typical_m, camera);
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      for (std::size_t i = matches.host_count; i < matches.size(); ++i) {
+      for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
         const Sighting& sighting = frames[f].of_feature[i];
+        if (speaks[i] == 0 || !matches.current.has_depth(i)) continue;
         if (sighting.state != SightingState::seen || !(sighting.dissimilarity < kMostDissimilar)) continue;
         points[count++] =
             at_depth(matches, regions, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),
@@ -96,6 +100,7 @@ struct SupportConstraints {
   static constexpr double kMovableTrust = 0.6;     // weight of what lies in a movable region: a chair seldom moves
   static constexpr double kDepthFloor_m = 0.003;   // what is left when the noise model's is nothing
   static constexpr double kDepthlessSpread = 0.3;  // standard deviation of an unknown inverse depth, of the median one
+  static constexpr float kHostCell_px = 24.0f;     // of features that support, one per cell of this size speaks
   static constexpr float kMostDissimilar = 0.25f;  // an observation that is less alike says nothing of the motion
 
   double depth_sigma_m(double here_m, double there_m) const noexcept {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The options of the paper's stages, by name; the form is told in stage_options.hpp.
+// The options of the paper's stages and of `ProvidedMatches`, by name; the form is told in stage_options.hpp.
 
 #include "stillpoint/match/provided_matches.hpp"
 #include "stillpoint/policies.hpp"
@@ -20,8 +20,28 @@ void each_option(LucasKanade& stage, Visit& visit) {
 }
 
 template <class Visit>
+void each_option(OlderFrameChoice& choice, Visit& visit) {
+  visit("slowest_m_s", choice.slowest_m_s);
+  visit.positive("pixel_sigma", choice.pixel_sigma);
+  visit("longest_s", choice.longest_s);
+}
+
+template <class Visit>
+void each_option(PlaceTest& test, Visit& visit) {
+  visit("occlusion_sigmas", test.occlusion_sigmas);
+}
+
+template <class Visit>
 void each_option(ProvidedMatches& stage, Visit& visit) {
   visit("border_px", stage.options.border_px);
+  visit("same_point_px", stage.options.same_point_px);
+  visit("objection_px", stage.options.objection_px);
+  visit("known_log_odds", stage.options.known_log_odds);
+  visit("occluder_reach_px", stage.options.occluder_reach_px);
+  visit("surrounding_px", stage.options.surrounding_px);
+  visit("older", stage.older);
+  visit("places", stage.places);
+  visit("surfaces", stage.surfaces);
 }
 
 template <class Visit>

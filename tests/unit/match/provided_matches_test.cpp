@@ -5,10 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <map>
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
 
@@ -89,6 +95,129 @@ TEST_F(ProvidedMatchesTest, ResetForgetsTheTracks) {
   matcher_.reference_pixels = {{20, 20}};
   matcher_.reset();
   EXPECT_EQ(match({{20, 20}}).state[0], MatchState::lost);
+}
+
+// ---- Chained over the history ----
+
+/// A camera that stands before a plane at 2 m, without texture: tracks are what the host says they are.
+class ChainedTracksTest : public testing::Test {
+ protected:
+  static constexpr int kWidth = 160, kHeight = 120;
+
+  FrameView frame() const { return FrameView(gray_, DepthView(depth_), time_s_); }
+
+  /// The next frame: the host's features, and where it says that they were.
+  const Matches& next(const std::vector<Vector2f>& pixels, const std::vector<Vector2f>& before) {
+    time_s_ += 1 / 30.0;
+    matches_.begin(pixels);
+    matches_.pixel_scale = pixel_scale(camera_);
+    matcher_.reference_pixels = before;
+    const FrameView current = frame(), reference = history_.empty() ? current : history_.back(1).view();
+    matcher_.match(reference, current, matches_);
+    lift(current, GuardedDepth(), camera_, KinectNoise(), matches_.current);
+    lift(reference, GuardedDepth(), camera_, KinectNoise(), matches_.reference);
+    if (!history_.empty()) {
+      matcher_.survey(history_, current, Pose::Identity(), camera_, KinectNoise(), matches_, workspace_);
+      matcher_.look_back(history_, current, Pose::Identity(), camera_, KinectNoise(), matches_);
+    }
+    history_.push(current, Pose::Identity());
+    return matches_;
+  }
+
+  /// The feature's pixel in the older frames that were looked at, by age; none where no track says.
+  std::map<std::size_t, float> columns(std::size_t i) const {
+    std::map<std::size_t, float> columns;
+    for (const OlderFrame& older : matches_.sightings.frames())
+      if (std::isfinite(older.of_feature[i].dissimilarity)) columns[older.age] = older.of_feature[i].found.x();
+    return columns;
+  }
+
+  const Camera camera_{150, 150, 79.5, 59.5, kWidth, kHeight};
+  cv::Mat gray_ = cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(100));
+  cv::Mat depth_ = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(2.0));
+  double time_s_ = 0;
+  FrameHistory history_{16};
+  Matches matches_;
+  Workspace workspace_;
+  ProvidedMatches matcher_;
+};
+
+static_assert(looks_back<ProvidedMatches, Camera, KinectNoise>::value);
+
+TEST_F(ChainedTracksTest, ATrackSaysWhereAFeatureWasInOlderFrames) {
+  float u = 30;
+  next({{u, 60}}, {});
+  for (int f = 1; f <= 12; ++f, u += 3) next({{u + 3, 60}}, {{u, 60}});
+  const auto found = columns(0);
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_GT(found.rbegin()->first, 3u);
+  for (const auto& [age, column] : found) EXPECT_NEAR(column, u - 3.0f * static_cast<float>(age), 1e-3) << age;
+}
+
+TEST_F(ChainedTracksTest, AFeatureGoesOnFromTheNearestOneOfTheLastFrame) {
+  next({{30, 60}, {33, 60}}, {});
+  next({{33, 60}, {36, 60}}, {{30, 60}, {33, 60}});
+  next({{36.2f, 60}, {39, 62}}, {{33.2f, 60}, {37, 62}});
+  EXPECT_NEAR(columns(0)[2], 30.2f, 1e-3) << "0.2 px beside the last frame's feature, and so before";
+  EXPECT_EQ(columns(1).count(2), 0u) << "2.2 px from any: its track begins there";
+  EXPECT_EQ(columns(1).count(1), 1u);
+}
+
+TEST_F(ChainedTracksTest, AGapEndsATrack) {
+  next({{30, 60}}, {});
+  next({{33, 60}}, {{30, 60}});
+  next({{36, 60}}, {{kNaN, kNaN}});
+  EXPECT_TRUE(columns(0).empty());
+  next({{39, 60}}, {{36, 60}});
+  EXPECT_EQ(columns(0).size(), 1u);
+  next({{42, 60}}, {});
+  EXPECT_TRUE(columns(0).empty()) << "no list";
+}
+
+TEST_F(ChainedTracksTest, AFrameThatWasNotMatchedEndsAllTracks) {
+  next({{30, 60}}, {});
+  next({{33, 60}}, {{30, 60}});
+  time_s_ += 1 / 30.0;
+  history_.push(frame(), Pose::Identity());  // without key points
+  next({{36, 60}}, {{33, 60}});
+  EXPECT_EQ(columns(0).size(), 1u);
+}
+
+TEST_F(ChainedTracksTest, ResetEndsAllTracks) {
+  next({{30, 60}}, {});
+  next({{33, 60}}, {{30, 60}});
+  matcher_.reset();
+  next({{36, 60}}, {{33, 60}});
+  EXPECT_EQ(columns(0).size(), 1u);
+}
+
+// The host's flow slides by 1.2 px a frame along a picture that stands.
+TEST_F(ChainedTracksTest, ATrackThatSlidesIsFoundOutByItsPatch) {
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u)
+      gray_.at<unsigned char>(v, u) = cv::saturate_cast<unsigned char>(
+          128 + 50 * std::sin(0.7 * u) * std::cos(0.5 * v) + 40 * std::sin(0.31 * u + 0.43 * v));
+  next({{60, 60}}, {});
+  next({{60, 60}}, {{61.2f, 60}});
+  EXPECT_NEAR(columns(0)[1], 60.0f, 0.3f);
+}
+
+TEST_F(ChainedTracksTest, BesideSomethingNearerNoTrackIsBelieved) {
+  depth_(cv::Rect(40, 0, 60, kHeight)).setTo(1.0);
+  next({{38, 60}, {20, 60}, {42, 60}}, {});
+  next({{38, 60}, {20, 60}, {42, 60}}, {{38, 60}, {20, 60}, {42, 60}});
+  EXPECT_TRUE(columns(0).empty()) << "two pixels beside";
+  EXPECT_EQ(columns(1).size(), 1u);
+  for (const OlderFrame& older : matches_.sightings.frames())
+    EXPECT_EQ(older.of_feature[1].state, SightingState::seen) << older.age;
+}
+
+TEST_F(ChainedTracksTest, AHistoryOfOneFrameIsNotLookedBackInto) {
+  history_ = FrameHistory(1);
+  next({{30, 60}}, {});
+  next({{33, 60}}, {{30, 60}});
+  EXPECT_EQ(matches_.state[0], MatchState::matched);
+  EXPECT_TRUE(matches_.sightings.frames().empty());
 }
 
 }  // namespace

@@ -135,7 +135,9 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(BoxPrior()), field_count<BoxPrior::Options>());
   EXPECT_EQ(visited(PropagatedPrior()), visited(BoxPrior()) + field_count<PropagatedPrior::Carrying>());
   EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());
-  EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>());
+  EXPECT_EQ(visited(ProvidedMatches()), field_count<ProvidedMatches::Options>() + 3) << "older, places, surfaces";
+  EXPECT_EQ(visited(OlderFrameChoice()), field_count<OlderFrameChoice>());
+  EXPECT_EQ(visited(PlaceTest()), field_count<PlaceTest>() - 1) << "the guard is none";
   EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
   EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 1) << "surfaces";
   EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>() - 1) << "the guard is none";

@@ -68,6 +68,9 @@ struct RigidOnTracks : PaperRigidPolicies {
 struct EpipolarOnTracks : PaperPolicies {
   using Matcher = ProvidedMatches;
 };
+struct DefaultOnTracks : DefaultPolicies {
+  using Matcher = ProvidedMatches;
+};
 struct RigidOnImages : PaperRigidPolicies {
   using Matcher = UncountedLucasKanade;
 };
@@ -130,6 +133,25 @@ TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
   }
   EXPECT_GE(judged_frames, 35u) << "a filter that judges nothing proves nothing";
   EXPECT_FALSE(filter.prior.things().empty());
+  EXPECT_EQ(after_warm_up, 0u);
+}
+
+// Tracks are chained over the history: all frames are as full from the first on.
+TEST(Allocation, TheDefaultEngineOnTracksAllocatesNothingOnceItsHistoryIsFull) {
+  mock::Clip clip(3, 30);
+  FrameFilter<DefaultOnTracks> filter(mock::Clip::camera());
+  std::size_t judged_frames = 0, after_warm_up = 0;
+  for (std::size_t f = 0; f < clip.frames.size(); ++f) {
+    constexpr std::size_t kWarmUp = 20;
+    hand_over(clip.frames[f], filter.matcher);
+    allocations = 0;
+    counting = true;
+    const FrameResult& result = filter.filter_frame(clip.frames[f].view(), clip.frames[f].keypoints);
+    counting = false;
+    judged_frames += judged(result.status());
+    if (f >= kWarmUp) after_warm_up += allocations;
+  }
+  EXPECT_GE(judged_frames, 25u) << "a filter that judges nothing proves nothing";
   EXPECT_EQ(after_warm_up, 0u);
 }
 
