@@ -71,7 +71,7 @@ void switch_stages([[maybe_unused]] const Without& without,
     filter.depth_lookup.is_guarded = !without("depth-guard");
     if (without("area-support")) {
       filter.ego_motion.support.constraints.surface_weight = 0.0;
-      filter.ego_motion.support.constraints.cell_px = 0.0f;
+      filter.ego_motion.support.constraints.host_cell_px = 0.0f;
     }
   }
 }

@@ -167,7 +167,7 @@ class CoarseAlignment {
       const float gx = slope.x() * fx / at.z(), gy = slope.y() * fy / at.z();
       const Eigen::Vector3f g(gx, gy, -(gx * at.x() + gy * at.y()) / at.z());
       Row row;
-      row << at.cross(g), g;
+      row << at.y() * g.z() - at.z() * g.y(), at.z() * g.x() - at.x() * g.z(), at.x() * g.y() - at.y() * g.x(), g;
       const Row weighted = (rest * rest * prior) * row;
       normal.noalias() += weighted * row.transpose();
       gradient += residual * weighted;

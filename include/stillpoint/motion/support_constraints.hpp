@@ -27,6 +27,7 @@ struct SupportConstraints {
 
   // No option in files.
   double surface_weight = 0.8;  ///< of a surface cell: depth errors of neighbours are not independent
+  float host_cell_px = 24.0f;   ///< of the host's features one per cell of this size speaks, where they support
 
   /// The matches with the reference frame. `features[k]` is the feature of constraint k.
   template <class Camera>
@@ -34,7 +35,7 @@ struct SupportConstraints {
                                      span<std::uint32_t> features, Workspace& workspace) const {
     const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
     const double typical_m = typical_depth_m(matches, workspace);
-    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * kHostCell_px, workspace);
+    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * host_cell_px, workspace);
     std::size_t count = 0;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i) || speaks[i] == 0) continue;
@@ -52,7 +53,7 @@ struct SupportConstraints {
     const std::size_t corners = matches.size() - matches.first_support();
     const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
     const double typical_m = typical_depth_m(matches, workspace);
-    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * kHostCell_px, workspace);
+    const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * host_cell_px, workspace);
     std::size_t count = 0;
     for (std::size_t i = matches.first_support(); i < matches.size(); ++i)
       if (speaks[i] != 0 && matches.matched(i) && !matches.current.has_depth(i))
@@ -100,7 +101,6 @@ struct SupportConstraints {
   static constexpr double kMovableTrust = 0.6;     // weight of what lies in a movable region: a chair seldom moves
   static constexpr double kDepthFloor_m = 0.003;   // what is left when the noise model's is nothing
   static constexpr double kDepthlessSpread = 0.3;  // standard deviation of an unknown inverse depth, of the median one
-  static constexpr float kHostCell_px = 24.0f;     // of features that support, one per cell of this size speaks
   static constexpr float kMostDissimilar = 0.25f;  // an observation that is less alike says nothing of the motion
 
   double depth_sigma_m(double here_m, double there_m) const noexcept {

@@ -12,6 +12,7 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/space_history.hpp"
+#include "stillpoint/core/workspace.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint::space_search_test {
@@ -83,16 +84,26 @@ class SpaceSearchTest : public testing::Test {
     Matches matches;
     matches.begin(std::vector<Vector2f>());
     SurfaceCell asked;
+    asked.pixel = Vector2f(160, 120);
     asked.point = camera_.back_project({160, 120}, depth_m);
     matches.sightings.surfaces.push_back(asked);
     for (int k = 0; k < others; ++k) {
       SurfaceCell wall;
-      wall.point = camera_.back_project({40.0 + 20 * k, 60}, 3.0);
+      wall.pixel = Vector2f(40.0f + 20.0f * static_cast<float>(k), 60.0f);
+      wall.point = camera_.back_project(wall.pixel.cast<double>(), 3.0);
       matches.sightings.surfaces.push_back(wall);
     }
-    search_.distrust_what_came(history_, kNow_s, Pose::Identity(), camera_, KinectNoise(), matches);
+    distrust(matches);
     return matches.sightings.surfaces[0];
   }
+
+  void distrust(Matches& matches) {
+    Workspace workspace;
+    search_.distrust_what_came(history_, kNow_s, Pose::Identity(), camera_, KinectNoise(), kStep_px, matches,
+                               workspace);
+  }
+
+  static constexpr int kStep_px = 20;
 
   static constexpr double kNow_s = 4.4;
   const cv::Mat gray_{kHeight, kWidth, CV_8UC1, cv::Scalar(50)};
@@ -133,6 +144,42 @@ TEST_F(SpaceSearchTest, ASurfaceThatCameHasLittleSay) {
 
 // One of one saw through: more than what people hide of a room. The view's pose is in doubt, not the surface.
 TEST_F(SpaceSearchTest, AViewThatSeesThroughEverythingSaysNothing) { EXPECT_EQ(cell(2.0, 0).trust, 1.0f); }
+
+// The views saw nothing left of column 160. A body at 2 m spans the whole row at v = 100, but for a gap at u = 40; the
+// wall is the row at v = 180, the steps between both are edges. Right of the middle the views saw through the body:
+// cells of its other half adjoin those one after the other, 60 to 140, and so does a corner at u = 75, but not what
+// lies left of the gap.
+TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
+  depth_(cv::Rect(0, 0, 160, kHeight)).setTo(0.0);
+  history_.clear();
+  for (int k = 0; k < 10; ++k) history_.push(view_of(gray_, depth_, 0.4 * k), Pose::Identity());
+  Matches matches;
+  matches.begin(std::vector<Vector2f>());
+  const auto add_cell = [&](float u, float v, double depth_m) {
+    SurfaceCell cell;
+    cell.pixel = Vector2f(u, v);
+    cell.point = camera_.back_project(cell.pixel.cast<double>(), depth_m);
+    matches.sightings.surfaces.push_back(cell);
+  };
+  for (int u = 10; u < kWidth; u += kStep_px)
+    if (u / kStep_px != 2) add_cell(static_cast<float>(u), 110, 2.0);
+  const std::size_t body_count = matches.sightings.surfaces.size();
+  for (int v : {170, 190, 210, 230})
+    for (int u = 10; u < kWidth; u += kStep_px) add_cell(static_cast<float>(u), static_cast<float>(v), 3.0);
+  matches.resize(1);  // a support corner
+  matches.current.pixel[0] = Vector2f(75, 110);
+  matches.current.depth_m[0] = 2.0;
+  matches.current.point[0] = camera_.back_project({75, 110}, 2.0);
+  distrust(matches);
+  for (std::size_t s = 0; s < matches.sightings.surfaces.size(); ++s) {
+    const SurfaceCell& cell = matches.sightings.surfaces[s];
+    if (s < body_count && cell.pixel.x() > 60)
+      EXPECT_LT(cell.trust, 0.1f) << cell.pixel.transpose();
+    else
+      EXPECT_EQ(cell.trust, 1.0f) << cell.pixel.transpose();
+  }
+  EXPECT_LT(matches.trust[0], 0.1f);
+}
 
 TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {
   history_.clear();

@@ -143,7 +143,7 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>() - 1) << "the guard is none";
   EXPECT_EQ(visited(EpipolarMotion()), field_count<EpipolarMotion::Options>());
   EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
-  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>() - 1) << "the surfaces' weight is none";
+  EXPECT_EQ(visited(SupportConstraints()), field_count<SupportConstraints>() - 2) << "surface weight, cells";
   EXPECT_EQ(visited(Inertia()), field_count<Inertia>());
   EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints, inertia";
   EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
