@@ -115,6 +115,7 @@ class FrameFilter : private PolicyContract<Policies> {
     const MotionPrior expected = expectation_.at(frame.timestamp_s);
     Pose rough_motion = Pose::Identity();  // current_from_reference
 
+    // Observations: where was each feature, and what is known of it?
     timings.run(Stage::prior, [&] { prior.regions(frame, regions_); });
     timings.run(Stage::match, [&] {
       rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
@@ -122,21 +123,28 @@ class FrameFilter : private PolicyContract<Policies> {
       lift(frame, depth_lookup, camera, depth_noise, matches_.current);
       lift(reference, depth_lookup, camera, depth_noise, matches_.reference);
       regions_.locate(matches_.current.pixel, matches_.current.depth_m);
+      survey(matcher, history_, frame, rough_motion, camera, depth_noise, matches_, workspace_);
     });
-    survey(*this, history_, frame, rough_motion, matches_, workspace_, timings);
+    timings.run(Stage::memory, [&] { recall(memory, matches_, workspace_); });
+
+    // Motion: how did the camera move?
     timings.run(Stage::motion, [&] {
       motion = ego_motion.estimate(matches_, regions_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
-    observe(*this, matches_, motion, timings);
+    timings.run(Stage::prior, [&] { observe(prior, matches_, motion, camera); });
     if (!motion.usable()) return motion.status;
-    look_back(*this, history_, frame, regions_, expected, matches_, motion, workspace_, timings);
+    timings.run(Stage::match, [&] { look_back(matcher, history_, frame, motion, camera, depth_noise, matches_); });
+    timings.run(Stage::motion, [&] { refine(ego_motion, matches_, regions_, camera, expected, motion, workspace_); });
 
+    // Evidence: what disagrees with that motion, by more than noise?
     const span<FeatureScore> scores = workspace_.take<FeatureScore>(matches_.size());
     const span<Label> labels = workspace_.take<Label>(matches_.size());
     Threshold threshold;
     timings.run(Stage::score, [&] { scorer.score(matches_, motion, camera, scores); });
     timings.run(Stage::gate, [&] { threshold = gate.threshold(scores, regions_, workspace_); });
+
+    // Verdicts: what moves together, what did we know, and how much must be left?
     timings.run(Stage::classify,
                 [&] { classifier.classify(matches_, scores, threshold, regions_, labels, workspace_); });
     timings.run(Stage::gate, [&] { learn(gate, matches_, labels); });

@@ -14,7 +14,6 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
-#include "stillpoint/core/timings.hpp"
 #include "stillpoint/core/workspace.hpp"
 
 namespace stillpoint {
@@ -69,47 +68,51 @@ Pose align(Matcher& matcher, const FrameView& reference, const FrameView& curren
     return guess;
 }
 
-/// Before the motion: a matcher may survey older frames, and a memory may know features and surfaces; it fills their
-/// trust.
-/// @param stages  a `FrameFilter`
+/// Before the motion: a matcher may survey older frames, and say what came within the past seconds.
 /// @param current_from_reference  roughly
-template <class Stages>
-void survey(Stages& stages, const FrameHistory& history, const FrameView& frame, const Pose& current_from_reference,
-            Matches& matches, Workspace& workspace, Timings& timings) {
-  using Memory = typename Stages::Memory;
-  if constexpr (looks_back<typename Stages::Matcher, typename Stages::Camera, typename Stages::DepthNoise>::value) {
-    Motion motion;
-    motion.current_from_reference = current_from_reference;
-    timings.run(Stage::match, [&] {
-      stages.matcher.survey(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
-                            matches, workspace);
-    });
+template <class Matcher, class Camera, class Noise>
+void survey([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHistory& history,
+            [[maybe_unused]] const FrameView& frame, [[maybe_unused]] const Pose& current_from_reference,
+            [[maybe_unused]] const Camera& camera, [[maybe_unused]] const Noise& noise,
+            [[maybe_unused]] Matches& matches, [[maybe_unused]] Workspace& workspace) {
+  if constexpr (looks_back<Matcher, Camera, Noise>::value) {
+    Motion roughly;
+    roughly.current_from_reference = current_from_reference;
+    matcher.survey(history, frame, history.filter_from_current(roughly), camera, noise, matches, workspace);
   }
-  if constexpr (recalls<Memory>::value) timings.run(Stage::memory, [&] { stages.memory.recall(matches, workspace); });
+}
+
+/// Before the motion: a memory may know features and surfaces; it fills their trust and log-odds.
+template <class Memory>
+void recall([[maybe_unused]] Memory& memory, [[maybe_unused]] Matches& matches, [[maybe_unused]] Workspace& workspace) {
+  if constexpr (recalls<Memory>::value) memory.recall(matches, workspace);
 }
 
 /// When the motion is known, be it usable or not: the prior may carry its regions along.
-template <class Stages>
-void observe(Stages& stages, const Matches& matches, const Motion& motion, Timings& timings) {
-  if constexpr (observes<typename Stages::Prior, typename Stages::Camera>::value)
-    timings.run(Stage::prior, [&] { stages.prior.observe(matches, motion, stages.camera); });
+template <class Prior, class Camera>
+void observe([[maybe_unused]] Prior& prior, [[maybe_unused]] const Matches& matches,
+             [[maybe_unused]] const Motion& motion, [[maybe_unused]] const Camera& camera) {
+  if constexpr (observes<Prior, Camera>::value) prior.observe(matches, motion, camera);
 }
 
-/// After the motion: the matcher looks for every feature in the older frames, and the motion may be refined by what is
-/// seen there.
-template <class Stages>
-void look_back(Stages& stages, const FrameHistory& history, const FrameView& frame, const Regions& regions,
-               const MotionPrior& expected, Matches& matches, Motion& motion, Workspace& workspace, Timings& timings) {
-  using StageCamera = typename Stages::Camera;
-  if constexpr (looks_back<typename Stages::Matcher, StageCamera, typename Stages::DepthNoise>::value) {
-    timings.run(Stage::match, [&] {
-      stages.matcher.look_back(history, frame, history.filter_from_current(motion), stages.camera, stages.depth_noise,
-                               matches);
-    });
-    if constexpr (refines<typename Stages::EgoMotion, StageCamera>::value)
-      timings.run(Stage::motion,
-                  [&] { stages.ego_motion.refine(matches, regions, stages.camera, expected, motion, workspace); });
-  }
+/// After the motion: the matcher may look for every feature in the older frames.
+template <class Matcher, class Camera, class Noise>
+void look_back([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHistory& history,
+               [[maybe_unused]] const FrameView& frame, [[maybe_unused]] const Motion& motion,
+               [[maybe_unused]] const Camera& camera, [[maybe_unused]] const Noise& noise,
+               [[maybe_unused]] Matches& matches) {
+  if constexpr (looks_back<Matcher, Camera, Noise>::value)
+    matcher.look_back(history, frame, history.filter_from_current(motion), camera, noise, matches);
+}
+
+/// And the motion may be refined by what was seen there.
+template <class EgoMotion, class Camera>
+void refine([[maybe_unused]] EgoMotion& ego_motion, [[maybe_unused]] Matches& matches,
+            [[maybe_unused]] const Regions& regions, [[maybe_unused]] const Camera& camera,
+            [[maybe_unused]] const MotionPrior& expected, [[maybe_unused]] Motion& motion,
+            [[maybe_unused]] Workspace& workspace) {
+  if constexpr (refines<EgoMotion, Camera>::value)
+    if (!matches.sightings.frames().empty()) ego_motion.refine(matches, regions, camera, expected, motion, workspace);
 }
 
 /// A gate may learn from what is known to stand, between classifier and memory; a matcher from what moves, after it.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
