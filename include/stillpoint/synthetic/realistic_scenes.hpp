@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Scenes in the room that are as hard as recordings are: a realistic depth sensor, few frames per second, static
+// Scenes in the room with the difficulties of recordings: a realistic depth sensor, few frames per second, static
 // objects beside what moves, slow movers. The street is in street.hpp.
 
 #include <algorithm>
@@ -35,7 +35,7 @@ inline Path crossing(double lane_z_m, double end_x_m, double start_x_m, double s
 }
 
 /// A screen on the back wall and a polished kettle on the table: neither has a depth.
-inline void add_shiny_things(std::vector<Solid>& solids) {
+inline void add_specular_objects(std::vector<Solid>& solids) {
   const TexturePtr glass = solids.back().textures[0];
   solids.emplace_back(Shape::cuboid, Vector3d(0.40, 0.24, 0.02), Vector3d(-0.95, -1.55, 3.57), glass);
   solids.back().specular = true;
@@ -101,7 +101,7 @@ inline Scene five_people(const SceneOptions& options) {
   scene.sensor = realistic_kinect();
   constexpr double kCamera_z_m = -1.85;
   scene.camera_path = {Path({{0.0, {0.0, -1.42, kCamera_z_m}, 0.0, -0.12, 0.0}}), {}};
-  detail::add_shiny_things(scene.furniture);
+  detail::add_specular_objects(scene.furniture);
   scene.motion_rule.window_frames = std::max(1, static_cast<int>(std::lround(options.frame_rate_hz / 6.0)));
   Random random(options.seed + 30);
   const double seconds = options.frames / options.frame_rate_hz;
@@ -150,7 +150,7 @@ inline Scene slow_walker(const SceneOptions& options = {}, double metres_per_s =
   Scene scene = detail::stage("slow_walker", options);
   scene.sensor = realistic_kinect();
   scene.camera_path = detail::wandering_camera(options);
-  detail::add_shiny_things(scene.furniture);
+  detail::add_specular_objects(scene.furniture);
   const double seconds = options.frames / options.frame_rate_hz;
   const Vector3d start(-0.15, 0, 1.25);
   scene.movers.push_back(walking_person(PathBuilder(start, 1.5707963)

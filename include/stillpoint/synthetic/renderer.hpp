@@ -207,7 +207,7 @@ class SyntheticSequence {
   RayGrid grid_;
   float sample_width_;  ///< of 2 x 2 samples in a pixel, at a depth of 1 m, metres
   NormalTable table_;
-  VisibleSurfaces surfaces_, delayed_surfaces_;  ///< of the picture, and of the depth where it comes at another time
+  VisibleSurfaces surfaces_, delayed_surfaces_;  ///< of the image, and of the depth where it comes at another time
   ImageBuffer delayed_depth_;
   std::vector<const PlacedSolid*> near_;
   std::vector<std::uint8_t> columns_;

@@ -123,7 +123,7 @@ struct Sensor {
   /// in [0, 1]. 0: depths at an edge are swapped with a neighbour's.
   double flying_pixel_share = 0.0;
 
-  /// The depth is taken so many seconds after the picture (negative: before it).
+  /// The depth is taken so many seconds after the image (negative: before it).
   double depth_delay_s = 0.0;
 };
 

@@ -128,6 +128,8 @@ inline std::vector<Solid> street(const Centreline& middle, double length_m, std:
       add({0.78, 0.15, 1.60}, side_m, way_m, 0.15, paint.tyres, kParkedCar);
     }
   }
+  // Named objects first: identifiers of their own (`SyntheticFrame::furniture_ids`) are few.
+  std::stable_partition(solids.begin(), solids.end(), [](const Solid& solid) { return !solid.name.empty(); });
   return solids;
 }
 

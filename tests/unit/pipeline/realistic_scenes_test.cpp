@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// DefaultPolicies without a detector on synthetic scenes that are as hard as recordings: a depth sensor with shadows,
-// flying pixels, holes and a delay, few frames per second, static objects beside what moves, a slow mover, a car.
+// DefaultPolicies without a detector on synthetic scenes with the difficulties of recordings: a depth sensor with
+// shadows, flying pixels, holes and a delay, few frames per second, static objects beside what moves, a slow mover, a
+// car.
 //
 // Figures are sums over several seeds. 1000 ORB features.
 

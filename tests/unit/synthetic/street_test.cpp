@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
@@ -95,6 +96,13 @@ TEST(StreetFromCar, NothingMovesAndParkedCarsAreSeen) {
       }
       EXPECT_GT(parked, 3 * 188 * 620 / 50);  // 2 %
     }
+}
+
+TEST(StreetFromCar, ParkedCarsHaveIdentifiersOfTheirOwnOnALongWayToo) {
+  SceneOptions options = seeded(1);
+  options.frames = 150;
+  const std::vector<Solid> furniture = street_from_car(options).furniture;
+  for (std::size_t k = 254; k < furniture.size(); ++k) EXPECT_EQ(furniture[k].name, "") << k;
 }
 
 TEST(StreetFromCar, CarsLaneIsFree) {
