@@ -67,13 +67,14 @@ class CornerTracker {
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
-      follow(first + c, start_[c].aligned, is_aligned_ ? kFinerLevels : current_.size(), start_[c].tolerance_m,
-             current.depth, matches);
-      if (!matches.matched(first + c))
-        follow(first + c, start_[c].aligned, current_.size(), start_[c].tolerance_m, current.depth, matches);
+      const auto follow_from = [&](const Vector2f& start, std::size_t levels) {
+        if (!matches.matched(first + c))
+          follow(first + c, start, levels, start_[c].tolerance_m, current.depth, matches);
+      };
+      if (is_aligned_) follow_from(start_[c].aligned, kFinerLevels);
+      follow_from(start_[c].aligned, current_.size());
       const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > kOtherStart_px;
-      if (elsewhere && !matches.matched(first + c))
-        follow(first + c, start_[c].expected, current_.size(), start_[c].tolerance_m, current.depth, matches);
+      if (elsewhere) follow_from(start_[c].expected, current_.size());
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
