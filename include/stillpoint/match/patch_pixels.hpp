@@ -7,7 +7,9 @@
 // Whole numbers of 16 bits, eight to a register: sums are exact, so that they are the same in whatever order and on
 // whatever machine they are added up.
 
+#if __has_include(<opencv2/core/hal/intrin.hpp>)  // a host without OpenCV has loops instead, with the same result
 #include <opencv2/core/hal/intrin.hpp>
+#endif
 
 #include <array>
 #include <cmath>
@@ -79,7 +81,7 @@ inline std::int16_t sample_pixel(const std::uint8_t* upper, const std::uint8_t* 
 /// `sample_pixel` of eight in a row; reads nine pixels of each line.
 inline void sample_row(const std::uint8_t* upper, const std::uint8_t* lower, const BilinearWeights& weights,
                        std::int16_t* out) noexcept {
-#if CV_SIMD128
+#if defined(CV_SIMD128) && CV_SIMD128
   const auto pixels = [](const std::uint8_t* p) { return cv::v_reinterpret_as_s16(cv::v_load_expand(p)); };
   // Pairs of neighbours, and the weights of both: a product and the sum of each pair is one instruction.
   const auto pair = [](std::int16_t left, std::int16_t right) {
