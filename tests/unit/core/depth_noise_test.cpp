@@ -42,11 +42,11 @@ TEST(TimeOfFlightNoise, GrowsLinearly) {
 
 TEST(AnyDepthNoise, AsksTheModelItHolds) {
   AnyDepthNoise noise;
-  EXPECT_EQ(noise.sigma(2.0), KinectNoise{}.sigma(2.0));
+  EXPECT_DOUBLE_EQ(noise.sigma(2.0), KinectNoise{}.sigma(2.0));
   noise = StereoNoise{};
-  EXPECT_EQ(noise.sigma(2.0), StereoNoise{}.sigma(2.0));
+  EXPECT_DOUBLE_EQ(noise.sigma(2.0), StereoNoise{}.sigma(2.0));
   noise = TimeOfFlightNoise{};
-  EXPECT_EQ(noise.sigma(2.0), TimeOfFlightNoise{}.sigma(2.0));
+  EXPECT_DOUBLE_EQ(noise.sigma(2.0), TimeOfFlightNoise{}.sigma(2.0));
 }
 
 TEST(FunctorNoise, CallsTheUsersFunction) {
