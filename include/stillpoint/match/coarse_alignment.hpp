@@ -130,7 +130,7 @@ class CoarseAlignment {
     return (camera.project(there) - camera.project(ahead)).norm();
   }
 
-  /// A pose, the cost there, and the next step of Gauss and Newton.
+  /// The cost at a pose, and the step of Gauss and Newton from there.
   struct Step {
     double cost = 1.0;
     Vector6d increment = Vector6d::Zero();  ///< rotation vector, translation, from the left
@@ -146,14 +146,9 @@ class CoarseAlignment {
     for (const Point& point : points_) {
       const Vector3d there = pose * point.point;
       float value = 0;
-      Vector2f slope;
-      if (!(there.z() > kNearest_m)) {
-        costs += point.weight * kUnseen;
-        weights += point.weight;
-        continue;
-      }
-      const Vector2f pixel = pixel_of(there, camera);
-      if (!image.sample(pixel, value, slope)) {
+      Vector2f pixel, slope;
+      const bool is_seen = there.z() > kNearest_m && image.sample(pixel = pixel_of(there, camera), value, slope);
+      if (!is_seen) {
         costs += point.weight * kUnseen;
         weights += point.weight;
         continue;
