@@ -1,57 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// After the largest frame has been seen, our own code takes nothing from the heap. This file replaces the program's
-// operator new.
+// After the largest frame has been seen, our own code takes nothing from the heap.
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <opencv2/imgproc.hpp>
 
 #include "clip.hpp"
 #include "stillpoint/match/provided_matches.hpp"
 #include "stillpoint/policies.hpp"
-
-namespace {
-
-std::atomic<bool> counting{false};
-std::atomic<std::size_t> allocations{0};
-
-void* counted_new(std::size_t size, std::size_t alignment) {
-  if (counting) ++allocations;
-  const std::size_t padded = (size + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, padded == 0 ? alignment : padded);
-  if (memory == nullptr) throw std::bad_alloc();
-  return memory;
-}
-
-/// Not inlined: g++ would see new paired with free, and warn.
-[[gnu::noinline]] void release(void* memory) noexcept { std::free(memory); }
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted_new(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return counted_new(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted_new(size, static_cast<std::size_t>(alignment));
-}
-void* operator new[](std::size_t size, std::align_val_t alignment) {
-  return counted_new(size, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* memory) noexcept { release(memory); }
-void operator delete[](void* memory) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
+#include "unit/counted_allocations.hpp"
 
 namespace stillpoint {
 namespace {
+
+using counted_allocations::count_in;
+using counted_allocations::counting;
 
 /// Lucas-Kanade with what OpenCV allocates left out.
 struct UncountedLucasKanade : LucasKanade {
@@ -95,15 +60,13 @@ TYPED_TEST(AllocationTest, NothingIsAllocatedInSteadyState) {
   std::size_t judged_frames = 0, after_warm_up = 0;
   for (std::size_t f = 0; f < clip.frames.size(); ++f) {
     hand_over(clip.frames[f], filter.matcher);
-    allocations = 0;
-    counting = true;
-    const FrameResult& result = filter.filter_frame(clip.frames[f].view(), clip.frames[f].keypoints);
-    counting = false;
-    judged_frames += judged(result.status());
+    const std::size_t allocated = count_in([&] {
+      judged_frames += judged(filter.filter_frame(clip.frames[f].view(), clip.frames[f].keypoints).status());
+    });
     if (f == 0) {
-      EXPECT_GT(allocations, 0u) << "the counter counts";
+      EXPECT_GT(allocated, 0u) << "the counter counts";
     }
-    if (f >= 4) after_warm_up += allocations;
+    if (f >= 4) after_warm_up += allocated;
   }
   EXPECT_GE(judged_frames, 10u) << "a filter that judges nothing proves nothing";
   EXPECT_EQ(after_warm_up, 0u);
@@ -123,13 +86,11 @@ TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
     if (f >= kWarmUp && f % 4 == 0) frame.keypoints[0] = {1e30f, -5.0f};
     if (f == 30) frame.depth.setTo(0);
     if (f % 4 == 0) filter.prior.detections = clip.detections;  // carried in the frames between
-    allocations = 0;
-    counting = true;
-    if (f % 8 == 6) filter.prior.detected(clip.frames[f - 3].time_s, clip.detections);
-    const FrameResult& result = filter.filter_frame(frame.view(), frame.keypoints);
-    counting = false;
-    judged_frames += judged(result.status());
-    if (f >= kWarmUp) after_warm_up += allocations;
+    const std::size_t allocated = count_in([&] {
+      if (f % 8 == 6) filter.prior.detected(clip.frames[f - 3].time_s, clip.detections);
+      judged_frames += judged(filter.filter_frame(frame.view(), frame.keypoints).status());
+    });
+    if (f >= kWarmUp) after_warm_up += allocated;
   }
   EXPECT_GE(judged_frames, 35u) << "a filter that judges nothing proves nothing";
   EXPECT_FALSE(filter.prior.things().empty());
@@ -144,12 +105,10 @@ TEST(Allocation, TheDefaultEngineOnTracksAllocatesNothingOnceItsHistoryIsFull) {
   for (std::size_t f = 0; f < clip.frames.size(); ++f) {
     constexpr std::size_t kWarmUp = 20;
     hand_over(clip.frames[f], filter.matcher);
-    allocations = 0;
-    counting = true;
-    const FrameResult& result = filter.filter_frame(clip.frames[f].view(), clip.frames[f].keypoints);
-    counting = false;
-    judged_frames += judged(result.status());
-    if (f >= kWarmUp) after_warm_up += allocations;
+    const std::size_t allocated = count_in([&] {
+      judged_frames += judged(filter.filter_frame(clip.frames[f].view(), clip.frames[f].keypoints).status());
+    });
+    if (f >= kWarmUp) after_warm_up += allocated;
   }
   EXPECT_GE(judged_frames, 25u) << "a filter that judges nothing proves nothing";
   EXPECT_EQ(after_warm_up, 0u);
@@ -165,12 +124,11 @@ TEST(Allocation, ColourFramesAndMasksReuseTheirMemoryToo) {
     cv::cvtColor(clip.frames[f].gray, colour, cv::COLOR_GRAY2BGR);
     hand_over(clip.frames[f], filter.matcher);
     const FrameView frame(colour, DepthView(clip.frames[f].depth), clip.frames[f].time_s);
-    allocations = 0;
-    counting = true;
-    filter.filter_frame(frame, clip.frames[f].keypoints).mask(mask);
-    filter.feedback(Pose::Identity());
-    counting = false;
-    if (f >= 4) after_warm_up += allocations;
+    const std::size_t allocated = count_in([&] {
+      filter.filter_frame(frame, clip.frames[f].keypoints).mask(mask);
+      filter.feedback(Pose::Identity());
+    });
+    if (f >= 4) after_warm_up += allocated;
   }
   EXPECT_EQ(after_warm_up, 0u);
 }

@@ -7,25 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <new>
 #include <utility>
 #include <vector>
 
 #include "stillpoint/synthetic/scenes.hpp"
-
-namespace {
-long allocations = 0;  // of this executable, counted by the operators below
-}
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* const memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "unit/counted_allocations.hpp"
 
 namespace stillpoint::synthetic::renderer_test {
 namespace {
@@ -371,9 +358,7 @@ TEST(SyntheticSequence, RenderingAgainAllocatesNothing) {
   SyntheticFrame frame;
   sequence.render(40, frame);
   const std::uint8_t* const pixels = frame.gray.view().data;
-  const long before = allocations;
-  sequence.render(41, frame);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(counted_allocations::count_in([&] { sequence.render(41, frame); }), 0u);
   EXPECT_EQ(frame.gray.view().data, pixels);
 }
 
@@ -383,9 +368,7 @@ TEST(SyntheticSequence, RenderingAgainWithARealisticSensorAllocatesNothing) {
   SyntheticSequence sequence(scene);
   SyntheticFrame frame;
   sequence.render(40, frame);
-  const long before = allocations;
-  sequence.render(41, frame);
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(counted_allocations::count_in([&] { sequence.render(41, frame); }), 0u);
 }
 
 TEST(SyntheticSequence, FurnitureIdsAreThoseOfWhatIsSeen) {
