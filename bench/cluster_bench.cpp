@@ -50,7 +50,7 @@ void BM_RegionClusters(benchmark::State& state) {
   TwoViewOptions options;
   options.points = static_cast<std::size_t>(state.range(0));
   TwoViews scene(options);
-  for (Membership& feature : scene.regions.of_feature) feature.in_dynamic = true;
+  for (Membership& feature : scene.observations.regions.of_feature) feature.in_dynamic = true;
   std::vector<FeatureScore> scores(options.points);
   for (std::size_t i = 0; i < options.points; ++i) scores[i].value = scene.outlier[i] != 0 ? 0.1f : 0.01f;
   std::vector<Label> labels(options.points);
@@ -58,7 +58,7 @@ void BM_RegionClusters(benchmark::State& state) {
   const RegionClusters classifier;
   for (auto _ : state) {
     workspace.rewind();
-    classifier.classify(scene.matches, scores, Threshold{0.03}, scene.regions, labels, workspace);
+    classifier.classify(scene.observations, {scores, {0.03}}, labels, workspace);
     benchmark::DoNotOptimize(labels.data());
     benchmark::ClobberMemory();
   }

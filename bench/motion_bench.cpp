@@ -132,7 +132,7 @@ void BM_EpipolarMotion(benchmark::State& state) {
       [&](Scene& scene) {
         workspace.rewind();
         const TwoViews& views = *scene.views;
-        scene.motion = ego_motion.estimate(views.matches, views.regions, views.camera, MotionPrior{}, workspace);
+        scene.motion = ego_motion.estimate(views.observations, views.camera, MotionPrior{}, workspace);
       },
       [](const Scene& scene) {
         return PoseError(scene.motion.current_from_reference, scene.views->current_from_reference);

@@ -163,8 +163,9 @@ class KMeansPair {
 class EpipolarPair {
  public:
   EpipolarPair(const TwoViews& scene, double threshold_px) : scene_(scene), options_(threshold_px) {
-    for (std::size_t i = 0; i < scene.matches.size(); ++i) {
-      const Vector2d &p = scene.matches.reference.undistorted[i], &q = scene.matches.current.undistorted[i];
+    for (std::size_t i = 0; i < scene.observations.matches.size(); ++i) {
+      const Vector2d &p = scene.observations.matches.reference.undistorted[i],
+                     &q = scene.observations.matches.current.undistorted[i];
       reference_.emplace_back(p.x(), p.y());
       current_.emplace_back(q.x(), q.y());
     }
@@ -172,8 +173,8 @@ class EpipolarPair {
 
   void ours() {
     workspace_.rewind();
-    const FundamentalEstimator<FundamentalSevenPoint> estimator(scene_.matches.reference.undistorted,
-                                                                scene_.matches.current.undistorted, workspace_);
+    const FundamentalEstimator<FundamentalSevenPoint> estimator(
+        scene_.observations.matches.reference.undistorted, scene_.observations.matches.current.undistorted, workspace_);
     const auto report = ransac(estimator, options_, workspace_);
     our_fundamental_ = estimator.in_pixels(report.model);
     our_trials_ = report.trials;
@@ -210,8 +211,9 @@ class EpipolarPair {
 class RigidPair {
  public:
   explicit RigidPair(const TwoViews& scene) : scene_(scene) {
-    for (std::size_t i = 0; i < scene.matches.size(); ++i) {
-      const Vector3d &p = scene.matches.reference.point[i], &q = scene.matches.current.point[i];
+    for (std::size_t i = 0; i < scene.observations.matches.size(); ++i) {
+      const Vector3d &p = scene.observations.matches.reference.point[i],
+                     &q = scene.observations.matches.current.point[i];
       reference_.emplace_back(p.x(), p.y(), p.z());
       current_.emplace_back(q.x(), q.y(), q.z());
     }
@@ -219,7 +221,7 @@ class RigidPair {
 
   void ours() {
     workspace_.rewind();
-    motion_ = ego_motion_.estimate(scene_.matches, scene_.regions, scene_.camera, MotionPrior{}, workspace_);
+    motion_ = ego_motion_.estimate(scene_.observations, scene_.camera, MotionPrior{}, workspace_);
   }
 
   void theirs() {

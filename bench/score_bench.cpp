@@ -24,7 +24,7 @@ void BM_OffsetScore(benchmark::State& state) {
   std::vector<FeatureScore> scores(options.points);
   const OffsetScore scorer;
   for (auto _ : state) {
-    scorer.score(scene.matches, motion, scene.camera, scores);
+    scorer.score(scene.observations, motion, scene.camera, scores);
     benchmark::DoNotOptimize(scores.data());
     benchmark::ClobberMemory();
   }

@@ -13,9 +13,8 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
-#include "stillpoint/core/regions.hpp"
 #include "stillpoint/motion/essential.hpp"
 
 namespace stillpoint::bench {
@@ -32,8 +31,7 @@ struct TwoViewOptions {
 struct TwoViews {
   Camera camera{525, 525, 319.5, 239.5, 640, 480};
   Pose current_from_reference = Pose::Identity();
-  Matches matches;
-  Regions regions;  ///< nothing is known to move
+  Observations observations;  ///< nothing is known to move
   std::vector<std::uint8_t> outlier;
 
   explicit TwoViews(const TwoViewOptions& options) {
@@ -46,7 +44,7 @@ struct TwoViews {
     const auto noisy = [&](const Vector2d& pixel) -> Vector2d {
       return pixel + options.noise_px * Vector2d(random.gaussian(), random.gaussian());
     };
-    const auto add = [&](Observations& side, const Vector2d& pixel, double depth_m) {
+    const auto add = [&](FrameFeatures& side, const Vector2d& pixel, double depth_m) {
       const std::size_t i = side.size();
       const double sigma_m = KinectNoise().sigma(depth_m);
       side.resize(i + 1);
@@ -54,6 +52,7 @@ struct TwoViews {
       side.pixel[i] = side.undistorted[i].cast<float>();
       side.set_depth(i, depth_m + sigma_m * random.gaussian(), sigma_m, camera);
     };
+    Matches& matches = observations.matches;
     while (outlier.size() < options.points) {
       const Vector2d pixel(random.uniform(0, 640), random.uniform(0, 480));
       const Vector3d point = camera.back_project(pixel, random.uniform(1, 5));
@@ -70,7 +69,8 @@ struct TwoViews {
     matches.resize(options.points);
     matches.host_count = options.points;
     std::fill(matches.state.begin(), matches.state.end(), MatchState::matched);
-    regions.locate(matches.current.pixel);
+    observations.regions.locate(matches.current.pixel);
+    observations.remembered.begin(matches);
   }
 };
 

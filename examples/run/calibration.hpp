@@ -33,9 +33,9 @@ struct CalibratingPrior : stillpoint::PropagatedPrior {
   stillpoint::NoiseCalibration* calibration = nullptr;
 
   template <class Camera>
-  void observe(const stillpoint::Matches& matches, const stillpoint::Motion& motion, const Camera& camera) {
-    if (calibration != nullptr) calibration->add(matches, motion);
-    stillpoint::PropagatedPrior::observe(matches, motion, camera);
+  void observe(const stillpoint::Observations& observations, const stillpoint::Motion& motion, const Camera& camera) {
+    if (calibration != nullptr) calibration->add(observations, motion);
+    stillpoint::PropagatedPrior::observe(observations, motion, camera);
   }
 };
 struct CalibratingPolicies : stillpoint::DefaultPolicies {

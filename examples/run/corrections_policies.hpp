@@ -47,19 +47,17 @@ struct SwitchedMotion {
   stillpoint::EpipolarMotion epipolar;
 
   template <class Camera>
-  stillpoint::Motion estimate(const stillpoint::Matches& matches, const stillpoint::Regions& regions,
-                              const Camera& camera, const stillpoint::MotionPrior& prior,
-                              stillpoint::Workspace& workspace) const {
-    if (kind == Kind::rigid) return rigid.estimate(matches, regions, camera, prior, workspace);
-    if (kind == Kind::epipolar) return epipolar.estimate(matches, regions, camera, prior, workspace);
-    return support.estimate(matches, regions, camera, prior, workspace);
+  stillpoint::Motion estimate(const stillpoint::Observations& observations, const Camera& camera,
+                              const stillpoint::MotionPrior& prior, stillpoint::Workspace& workspace) const {
+    if (kind == Kind::rigid) return rigid.estimate(observations, camera, prior, workspace);
+    if (kind == Kind::epipolar) return epipolar.estimate(observations, camera, prior, workspace);
+    return support.estimate(observations, camera, prior, workspace);
   }
 
   template <class Camera>
-  void refine(stillpoint::Matches& matches, const stillpoint::Regions& regions, const Camera& camera,
-              const stillpoint::MotionPrior& prior, stillpoint::Motion& motion,
-              stillpoint::Workspace& workspace) const {
-    if (kind == Kind::support) support.refine(matches, regions, camera, prior, motion, workspace);
+  void refine(stillpoint::Observations& observations, const Camera& camera, const stillpoint::MotionPrior& prior,
+              stillpoint::Motion& motion, stillpoint::Workspace& workspace) const {
+    if (kind == Kind::support) support.refine(observations, camera, prior, motion, workspace);
   }
 };
 
@@ -83,9 +81,10 @@ struct SwitchedScore : stillpoint::SightingScore {
   }
 
   template <class Camera>
-  void score(const stillpoint::Matches& matches, const stillpoint::Motion& motion, const Camera& camera,
+  void score(const stillpoint::Observations& observations, const stillpoint::Motion& motion, const Camera& camera,
              stillpoint::span<stillpoint::FeatureScore> scores) const {
-    if (is_whitened) return stillpoint::SightingScore::score(matches, motion, camera, scores);
+    if (is_whitened) return stillpoint::SightingScore::score(observations, motion, camera, scores);
+    const stillpoint::Matches& matches = observations.matches;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       double most = 0, second = 0;
       bool is_seen = false;
@@ -124,13 +123,12 @@ struct SwitchedGate : stillpoint::TailGate {
 struct SwitchedClusters : stillpoint::SurfaceClusters {
   bool tests_all = true;
 
-  void classify(const stillpoint::Matches& matches, stillpoint::span<const stillpoint::FeatureScore> scores,
-                const stillpoint::Threshold& threshold, const stillpoint::Regions& regions,
+  void classify(const stillpoint::Observations& observations, const stillpoint::Evidence& evidence,
                 stillpoint::span<stillpoint::Label> labels, stillpoint::Workspace& workspace) const {
-    stillpoint::SurfaceClusters::classify(matches, scores, threshold, regions, labels, workspace);
+    stillpoint::SurfaceClusters::classify(observations, evidence, labels, workspace);
     if (tests_all) return;
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      if (!regions.of_feature[i].in_dynamic) labels[i].log_odds = std::min(labels[i].log_odds, kAlone);
+    for (std::size_t i = 0; i < observations.size(); ++i)
+      if (!observations.regions.of_feature[i].in_dynamic) labels[i].log_odds = std::min(labels[i].log_odds, kAlone);
   }
 };
 

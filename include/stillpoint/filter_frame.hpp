@@ -15,6 +15,7 @@
 #include "stillpoint/core/keypoint.hpp"
 #include "stillpoint/core/mask_prediction.hpp"
 #include "stillpoint/core/motion_expectation.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 
@@ -108,52 +109,53 @@ class FrameFilter : private PolicyContract<Policies> {
     Motion& motion = result_.motion_;
     Timings& timings = result_.timings_;
     workspace_.rewind();
-    matches_.begin(pixels_);
-    matches_.pixel_scale = pixel_scale(camera);
-    matches_.elapsed_s = frame.timestamp_s - reference.timestamp_s;
+    Matches& matches = observations_.matches;
+    Regions& regions = observations_.regions;
+    matches.begin(pixels_);
+    matches.pixel_scale = pixel_scale(camera);
+    matches.elapsed_s = frame.timestamp_s - reference.timestamp_s;
 
     const MotionPrior expected = expectation_.at(frame.timestamp_s);
     Pose rough_motion = Pose::Identity();  // current_from_reference
 
     // Observations: where was each feature, and what is known of it?
-    timings.run(Stage::prior, [&] { prior.regions(frame, regions_); });
+    timings.run(Stage::prior, [&] { prior.regions(frame, regions); });
     timings.run(Stage::match, [&] {
       rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
-      matcher.match(reference, frame, matches_);
-      lift(frame, depth_lookup, camera, depth_noise, matches_.current);
-      lift(reference, depth_lookup, camera, depth_noise, matches_.reference);
-      regions_.locate(matches_.current.pixel, matches_.current.depth_m);
-      survey(matcher, history_, frame, rough_motion, camera, depth_noise, matches_, workspace_);
+      matcher.match(reference, frame, matches);
+      lift(frame, depth_lookup, camera, depth_noise, matches.current);
+      lift(reference, depth_lookup, camera, depth_noise, matches.reference);
+      regions.locate(matches.current.pixel, matches.current.depth_m);
+      survey(matcher, history_, frame, rough_motion, camera, depth_noise, matches, workspace_);
     });
-    timings.run(Stage::memory, [&] { recall(memory, matches_, workspace_); });
+    timings.run(Stage::memory, [&] { recall(memory, matches, observations_.remembered, workspace_); });
 
     // Motion: how did the camera move?
     timings.run(Stage::motion, [&] {
-      motion = ego_motion.estimate(matches_, regions_, camera, expected, workspace_);
+      motion = ego_motion.estimate(observations_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
-    timings.run(Stage::prior, [&] { observe(prior, matches_, motion, camera); });
+    timings.run(Stage::prior, [&] { observe(prior, observations_, motion, camera); });
     if (!motion.usable()) return motion.status;
-    timings.run(Stage::match, [&] { look_back(matcher, history_, frame, motion, camera, depth_noise, matches_); });
-    timings.run(Stage::motion, [&] { refine(ego_motion, matches_, regions_, camera, expected, motion, workspace_); });
+    timings.run(Stage::match, [&] { look_back(matcher, history_, frame, motion, camera, depth_noise, observations_); });
+    timings.run(Stage::motion, [&] { refine(ego_motion, observations_, camera, expected, motion, workspace_); });
 
     // Evidence: what disagrees with that motion, by more than noise?
-    const span<FeatureScore> scores = workspace_.take<FeatureScore>(matches_.size());
-    const span<Label> labels = workspace_.take<Label>(matches_.size());
-    Threshold threshold;
-    timings.run(Stage::score, [&] { scorer.score(matches_, motion, camera, scores); });
-    timings.run(Stage::gate, [&] { threshold = gate.threshold(scores, regions_, workspace_); });
+    const span<FeatureScore> scores = workspace_.take<FeatureScore>(matches.size());
+    Evidence evidence{scores, {}};
+    timings.run(Stage::score, [&] { scorer.score(observations_, motion, camera, scores); });
+    timings.run(Stage::gate, [&] { evidence.threshold = gate.threshold(scores, regions, workspace_); });
 
     // Verdicts: what moves together, what did we know, and how much must be left?
-    timings.run(Stage::classify,
-                [&] { classifier.classify(matches_, scores, threshold, regions_, labels, workspace_); });
-    timings.run(Stage::gate, [&] { learn(gate, matches_, labels); });
-    timings.run(Stage::memory, [&] { memory.update(matches_, motion, scores, labels, workspace_); });
-    timings.run(Stage::match, [&] { learn(matcher, matches_, labels); });
+    const span<Label> labels = workspace_.take<Label>(matches.size());
+    timings.run(Stage::classify, [&] { classifier.classify(observations_, evidence, labels, workspace_); });
+    timings.run(Stage::gate, [&] { learn(gate, observations_, labels); });
+    timings.run(Stage::memory, [&] { memory.update(observations_, motion, evidence, labels, workspace_); });
+    timings.run(Stage::match, [&] { learn(matcher, observations_, labels); });
     timings.run(Stage::verdict, [&] {
-      mask_prediction.remember(matches_, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s);
+      mask_prediction.remember(matches, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s);
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
-      result_.finish(labels, scores, matches_.current.depth_m);
+      result_.finish(labels, scores, matches.current.depth_m);
     });
     return result_.keep_floor_kept() > 0 ? Status::keep_floor : motion.status;
   }
@@ -162,8 +164,7 @@ class FrameFilter : private PolicyContract<Policies> {
   MotionExpectation expectation_;
   ImageBuffer gray_;
   std::vector<Vector2f> pixels_;
-  Regions regions_;
-  Matches matches_;
+  Observations observations_;
   Workspace workspace_;
   FrameResult result_;
 };

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: MIT
 
 // The pose alone: nobody would know whether it can be trusted.
-// expected: stillpoint: Policies::EgoMotion must offer Motion estimate(const Matches&, const Regions&, const Camera&, const MotionPrior&, Workspace&); see motion/rigid_motion.hpp
+// expected: stillpoint: Policies::EgoMotion must offer Motion estimate(const Observations&, const Camera&, const MotionPrior&, Workspace&); see motion/rigid_motion.hpp
 
 #include "sound_policies.hpp"
 
 struct PoseAlone {
-  stillpoint::Pose estimate(const stillpoint::Matches&, const stillpoint::Regions&, const stillpoint::Camera&,
-                            const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
+  stillpoint::Pose estimate(const stillpoint::Observations&, const stillpoint::Camera&, const stillpoint::MotionPrior&,
+                            stillpoint::Workspace&) const {
     return stillpoint::Pose::Identity();
   }
 };

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: MIT
 
 // A memory that may not change the labels.
-// expected: stillpoint: Policies::Memory must offer void update(const Matches&, const Motion&, span<const FeatureScore>, span<Label>, Workspace&) and void reset(); see memory/no_memory.hpp
+// expected: stillpoint: Policies::Memory must offer void update(const Observations&, const Motion&, const Evidence&, span<Label>, Workspace&) and void reset(); see memory/no_memory.hpp
 
 #include "sound_policies.hpp"
 
 struct PowerlessMemory {
-  void update(const stillpoint::Matches&, const stillpoint::Motion&, stillpoint::span<const stillpoint::FeatureScore>) {
-  }
+  void update(const stillpoint::Observations&, const stillpoint::Motion&, const stillpoint::Evidence&) {}
   void reset() {}
 };
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 
 // Plain numbers instead of scores.
-// expected: stillpoint: Policies::Scorer must offer void score(const Matches&, const Motion&, const Camera&, span<FeatureScore>); see score/offset_score.hpp
+// expected: stillpoint: Policies::Scorer must offer void score(const Observations&, const Motion&, const Camera&, span<FeatureScore>); see score/offset_score.hpp
 
 #include "sound_policies.hpp"
 
 struct PlainNumbers {
-  void score(const stillpoint::Matches&, const stillpoint::Motion&, const stillpoint::Camera&,
+  void score(const stillpoint::Observations&, const stillpoint::Motion&, const stillpoint::Camera&,
              stillpoint::span<double>) const {}
 };
 

@@ -19,8 +19,8 @@
 /// The camera stands on a tripod.
 struct NoEgoMotion {
   template <class Camera>
-  stillpoint::Motion estimate(const stillpoint::Matches&, const stillpoint::Regions&, const Camera&,
-                              const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
+  stillpoint::Motion estimate(const stillpoint::Observations&, const Camera&, const stillpoint::MotionPrior&,
+                              stillpoint::Workspace&) const {
     stillpoint::Motion motion;
     motion.status = stillpoint::Status::ok;
     return motion;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
@@ -35,8 +35,11 @@ class FlowNeighbours {
   };
   Options options;
 
-  void classify(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
-                const Regions& regions, span<Label> labels, Workspace& workspace) const {
+  void classify(const Observations& observations, const Evidence& evidence, span<Label> labels,
+                Workspace& workspace) const {
+    const Matches& matches = observations.matches;
+    const Regions& regions = observations.regions;
+    const span<const FeatureScore> scores = evidence.scores;
     const Workspace::Scope scope(workspace);
     const PixelGrid grid(matches.current.pixel, options.reach_px, workspace,
                          [&](std::size_t i) { return scores[i].scored(); });
@@ -55,7 +58,7 @@ class FlowNeighbours {
       const float own = scores[i].scored() ? held(scores[i]) : others;
       const Membership& region = regions.of_feature[i];
       label.log_odds = options.own_share * own + (1 - options.own_share) * others -
-                       static_cast<float>(threshold.level) +
+                       static_cast<float>(evidence.threshold.level) +
                        (region.in_dynamic   ? options.dynamic_shift
                         : region.in_movable ? options.movable_shift
                         : region.in_fixed   ? options.fixed_shift

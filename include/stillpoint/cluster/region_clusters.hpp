@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "stillpoint/cluster/k_means.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
@@ -31,8 +31,11 @@ class RegionClusters {
   };
   Options options;
 
-  void classify(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
-                const Regions& regions, span<Label> labels, Workspace& workspace) const {
+  void classify(const Observations& observations, const Evidence& evidence, span<Label> labels,
+                Workspace& workspace) const {
+    const Matches& matches = observations.matches;
+    const Regions& regions = observations.regions;
+    const span<const FeatureScore> scores = evidence.scores;
     const Workspace::Scope scope(workspace);
     const span<std::size_t> tested = workspace.take<std::size_t>(matches.size());
     std::size_t m = 0;
@@ -43,7 +46,7 @@ class RegionClusters {
       else
         labels[i] = untested(matches, i, scores[i].scored(), inside);
     }
-    if (m > 0) judge_clusters(matches, scores, threshold, tested.first(m), labels, workspace);
+    if (m > 0) judge_clusters(matches, scores, evidence.threshold, tested.first(m), labels, workspace);
   }
 
  private:

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "stillpoint/cluster/k_means.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
@@ -41,15 +41,18 @@ class SurfaceClusters {
   static constexpr float kLowest = -2.0f, kHighest = 10.0f;  ///< a single score is held between these, nats
   static constexpr float kAlone = -1.0f;  ///< log-odds of a feature that knows nothing and has no neighbours, nats
 
-  void classify(const Matches& matches, span<const FeatureScore> scores, const Threshold& threshold,
-                const Regions& regions, span<Label> labels, Workspace& workspace) const {
+  void classify(const Observations& observations, const Evidence& evidence, span<Label> labels,
+                Workspace& workspace) const {
+    const Matches& matches = observations.matches;
+    const Regions& regions = observations.regions;
+    const span<const FeatureScore> scores = evidence.scores;
     const Workspace::Scope scope(workspace);
     const span<float> common = workspace.take<float>(matches.size(), kNone);
     share_in_clusters(matches, scores, regions, labels, common, workspace);
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;
     const PixelGrid grid(matches.current.pixel, 0.5f * neighbour_px, workspace,
                          [&](std::size_t i) { return !std::isnan(common[i]); });
-    const auto level = static_cast<float>(threshold.level);
+    const auto level = static_cast<float>(evidence.threshold.level);
     const bool any_dynamic = std::any_of(regions.detections.begin(), regions.detections.end(),
                                          [](const Detection& found) { return found.mobility == Mobility::dynamic; });
     for (std::size_t i = 0; i < matches.size(); ++i) {

@@ -64,7 +64,7 @@ double depth_by(const Lookup& lookup, const DepthView& depth, const Vector2f& pi
 /// @param noise a depth noise model, `double sigma(double depth_m)`.
 template <class Lookup, class Camera, class Noise>
 void lift(const FrameView& frame, const Lookup& lookup, const Camera& camera, const Noise& noise,
-          Observations& observations) {
+          FrameFeatures& observations) {
   const DepthScale to_depth(frame.image(), frame.depth.image);
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Vector2f pixel = observations.pixel[i];
@@ -76,7 +76,7 @@ void lift(const FrameView& frame, const Lookup& lookup, const Camera& camera, co
 }
 
 /// The median depth of the features that have one, metres; 0 where none has. O(n).
-inline double median_depth_m(const Observations& observations, Workspace& workspace) {
+inline double median_depth_m(const FrameFeatures& observations, Workspace& workspace) {
   const Workspace::Scope scope(workspace);
   const span<double> depths = workspace.take<double>(observations.size());
   std::size_t count = 0;

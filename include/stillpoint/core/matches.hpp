@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where each feature is now and where it was before: the table that every stage after matching reads.
+// Where each feature is now and where it was before: the table that the matcher fills.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +24,7 @@ enum class MatchState : std::uint8_t {
 };
 
 /// The features as one frame sees them. Parallel arrays, one entry a feature.
-struct Observations {
+struct FrameFeatures {
   std::vector<Vector2f> pixel;        ///< in the image as it is (distorted), pixels
   std::vector<Vector2d> undistorted;  ///< pixels of the ideal pinhole
   std::vector<double> depth_m;        ///< metres, 0 where there is none
@@ -74,14 +74,13 @@ struct Matches {
   /// Focal length over 525 px, a Kinect's: lengths in pixels among the options are for that and scale with it.
   float pixel_scale = 1.0f;
   double elapsed_s = 0;  ///< from the reference frame to the current one
-  Observations current;
-  Observations reference;  ///< valid where `state` is matched or near_edge
+  FrameFeatures current;
+  FrameFeatures reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;
-  std::vector<Vector2f> predicted;       ///< where it was in the reference image if it stands still, roughly; pixels
-  std::vector<std::uint8_t> was_there;   ///< views of seconds ago that saw a surface in its place
-  std::vector<float> trust;              ///< 0 to 1: how much a feature may say of the camera's motion, from memory
-  std::vector<float> recalled_log_odds;  ///< that it moves, from earlier frames; 0 where nothing is remembered
-  Sightings sightings;                   ///< in older frames, for a matcher that looks back
+  std::vector<Vector2f> predicted;      ///< where it was in the reference image if it stands still, roughly; pixels
+  std::vector<std::uint8_t> was_there;  ///< views of seconds ago that saw a surface in its place
+  std::vector<float> space_trust;       ///< 0 to 1: less for what came where older views saw through
+  Sightings sightings;                  ///< in older frames, for a matcher that looks back
 
   std::size_t size() const noexcept { return state.size(); }
 
@@ -104,8 +103,7 @@ struct Matches {
     state.clear();
     predicted.clear();
     was_there.clear();
-    trust.clear();
-    recalled_log_odds.clear();
+    space_trust.clear();
     sightings.clear();
     resize(host_count);
     for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = predicted[i] = pixels[i];
@@ -117,8 +115,7 @@ struct Matches {
     state.resize(count, MatchState::lost);
     predicted.resize(count, Vector2f::Zero());
     was_there.resize(count, 0);
-    trust.resize(count, 1.0f);
-    recalled_log_odds.resize(count, 0.0f);
+    space_trust.resize(count, 1.0f);
   }
 };
 

@@ -9,10 +9,8 @@
 #include <utility>
 
 #include "stillpoint/core/frame_history.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
-#include "stillpoint/core/regions.hpp"
-#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 
@@ -27,7 +25,7 @@ template <class P, class Camera, class Noise> struct looks_back<P, Camera, Noise
     std::declval<Workspace&>())),
     decltype(std::declval<P&>().look_back(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
     std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(),
-    std::declval<Matches&>()))>> : std::true_type {};
+    std::declval<Observations&>()))>> : std::true_type {};
 
 template <class P, class Camera, class Noise, class = void> struct aligns : std::false_type {};
 template <class P, class Camera, class Noise> struct aligns<P, Camera, Noise, std::void_t<decltype(std::declval<P&>().align(
@@ -36,20 +34,20 @@ template <class P, class Camera, class Noise> struct aligns<P, Camera, Noise, st
 
 template <class P, class Camera, class = void> struct refines : std::false_type {};
 template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
-    std::declval<Matches&>(), std::declval<const Regions&>(), std::declval<const Camera&>(),
-    std::declval<const MotionPrior&>(), std::declval<Motion&>(), std::declval<Workspace&>()))>> : std::true_type {};
+    std::declval<Observations&>(), std::declval<const Camera&>(), std::declval<const MotionPrior&>(),
+    std::declval<Motion&>(), std::declval<Workspace&>()))>> : std::true_type {};
 
 template <class P, class = void> struct recalls : std::false_type {};
 template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
-    std::declval<Matches&>(), std::declval<Workspace&>()))>> : std::true_type {};
+    std::declval<const Matches&>(), std::declval<Remembered&>(), std::declval<Workspace&>()))>> : std::true_type {};
 
 template <class P, class = void> struct learns : std::false_type {};
 template <class P> struct learns<P, std::void_t<decltype(std::declval<P&>().learn(
-    std::declval<const Matches&>(), std::declval<span<const Label>>()))>> : std::true_type {};
+    std::declval<const Observations&>(), std::declval<span<const Label>>()))>> : std::true_type {};
 
 template <class P, class Camera, class = void> struct observes : std::false_type {};
 template <class P, class Camera> struct observes<P, Camera, std::void_t<decltype(std::declval<P&>().observe(
-    std::declval<const Matches&>(), std::declval<const Motion&>(), std::declval<const Camera&>()))>> : std::true_type {};
+    std::declval<const Observations&>(), std::declval<const Motion&>(), std::declval<const Camera&>()))>> : std::true_type {};
 
 template <class P, class = void> struct resets : std::false_type {};
 template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().reset())>> : std::true_type {};
@@ -82,17 +80,19 @@ void survey([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHisto
   }
 }
 
-/// Before the motion: a memory may know features and surfaces; it fills their trust and log-odds.
+/// Before the motion: a memory may know features and surfaces.
 template <class Memory>
-void recall([[maybe_unused]] Memory& memory, [[maybe_unused]] Matches& matches, [[maybe_unused]] Workspace& workspace) {
-  if constexpr (recalls<Memory>::value) memory.recall(matches, workspace);
+void recall([[maybe_unused]] Memory& memory, const Matches& matches, Remembered& remembered,
+            [[maybe_unused]] Workspace& workspace) {
+  remembered.begin(matches);
+  if constexpr (recalls<Memory>::value) memory.recall(matches, remembered, workspace);
 }
 
 /// When the motion is known, be it usable or not: the prior may carry its regions along.
 template <class Prior, class Camera>
-void observe([[maybe_unused]] Prior& prior, [[maybe_unused]] const Matches& matches,
+void observe([[maybe_unused]] Prior& prior, [[maybe_unused]] const Observations& observations,
              [[maybe_unused]] const Motion& motion, [[maybe_unused]] const Camera& camera) {
-  if constexpr (observes<Prior, Camera>::value) prior.observe(matches, motion, camera);
+  if constexpr (observes<Prior, Camera>::value) prior.observe(observations, motion, camera);
 }
 
 /// After the motion: the matcher may look for every feature in the older frames.
@@ -100,25 +100,25 @@ template <class Matcher, class Camera, class Noise>
 void look_back([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHistory& history,
                [[maybe_unused]] const FrameView& frame, [[maybe_unused]] const Motion& motion,
                [[maybe_unused]] const Camera& camera, [[maybe_unused]] const Noise& noise,
-               [[maybe_unused]] Matches& matches) {
+               [[maybe_unused]] Observations& observations) {
   if constexpr (looks_back<Matcher, Camera, Noise>::value)
-    matcher.look_back(history, frame, history.filter_from_current(motion), camera, noise, matches);
+    matcher.look_back(history, frame, history.filter_from_current(motion), camera, noise, observations);
 }
 
 /// And the motion may be refined by what was seen there.
 template <class EgoMotion, class Camera>
-void refine([[maybe_unused]] EgoMotion& ego_motion, [[maybe_unused]] Matches& matches,
-            [[maybe_unused]] const Regions& regions, [[maybe_unused]] const Camera& camera,
-            [[maybe_unused]] const MotionPrior& expected, [[maybe_unused]] Motion& motion,
-            [[maybe_unused]] Workspace& workspace) {
+void refine([[maybe_unused]] EgoMotion& ego_motion, [[maybe_unused]] Observations& observations,
+            [[maybe_unused]] const Camera& camera, [[maybe_unused]] const MotionPrior& expected,
+            [[maybe_unused]] Motion& motion, [[maybe_unused]] Workspace& workspace) {
   if constexpr (refines<EgoMotion, Camera>::value)
-    if (!matches.sightings.frames().empty()) ego_motion.refine(matches, regions, camera, expected, motion, workspace);
+    if (!observations.matches.sightings.frames().empty())
+      ego_motion.refine(observations, camera, expected, motion, workspace);
 }
 
 /// A gate may learn from what is known to stand, between classifier and memory; a matcher from what moves, after it.
 template <class Policy>
-void learn(Policy& policy, const Matches& matches, span<const Label> labels) {
-  if constexpr (learns<Policy>::value) policy.learn(matches, labels);
+void learn(Policy& policy, const Observations& observations, span<const Label> labels) {
+  if constexpr (learns<Policy>::value) policy.learn(observations, labels);
 }
 
 /// A prior or a gate may remember frames: these are forgotten with all others.

@@ -11,10 +11,8 @@
 #include <utility>
 
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
-#include "stillpoint/core/regions.hpp"
-#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 
@@ -44,12 +42,12 @@ template <class P> struct is_depth_lookup<P, std::enable_if_t<detail::returns<do
 
 template <class P, class Camera, class = void> struct is_ego_motion : std::false_type {};
 template <class P, class Camera> struct is_ego_motion<P, Camera, std::enable_if_t<detail::returns<Motion,
-    decltype(std::declval<P&>().estimate(std::declval<const Matches&>(), std::declval<const Regions&>(),
-    std::declval<const Camera&>(), std::declval<const MotionPrior&>(), std::declval<Workspace&>()))>>> : std::true_type {};
+    decltype(std::declval<P&>().estimate(std::declval<const Observations&>(), std::declval<const Camera&>(),
+    std::declval<const MotionPrior&>(), std::declval<Workspace&>()))>>> : std::true_type {};
 
 template <class P, class Camera, class = void> struct is_scorer : std::false_type {};
 template <class P, class Camera> struct is_scorer<P, Camera, std::void_t<decltype(std::declval<P&>().score(
-    std::declval<const Matches&>(), std::declval<const Motion&>(), std::declval<const Camera&>(),
+    std::declval<const Observations&>(), std::declval<const Motion&>(), std::declval<const Camera&>(),
     std::declval<span<FeatureScore>>()))>> : std::true_type {};
 
 template <class P, class = void> struct is_gate : std::false_type {};
@@ -58,12 +56,12 @@ template <class P> struct is_gate<P, std::enable_if_t<detail::returns<Threshold,
 
 template <class P, class = void> struct is_classifier : std::false_type {};
 template <class P> struct is_classifier<P, std::void_t<decltype(std::declval<P&>().classify(
-    std::declval<const Matches&>(), std::declval<span<const FeatureScore>>(), std::declval<const Threshold&>(),
-    std::declval<const Regions&>(), std::declval<span<Label>>(), std::declval<Workspace&>()))>> : std::true_type {};
+    std::declval<const Observations&>(), std::declval<const Evidence&>(), std::declval<span<Label>>(),
+    std::declval<Workspace&>()))>> : std::true_type {};
 
 template <class P, class = void> struct is_memory : std::false_type {};
 template <class P> struct is_memory<P, std::void_t<decltype(std::declval<P&>().update(
-    std::declval<const Matches&>(), std::declval<const Motion&>(), std::declval<span<const FeatureScore>>(),
+    std::declval<const Observations&>(), std::declval<const Motion&>(), std::declval<const Evidence&>(),
     std::declval<span<Label>>(), std::declval<Workspace&>())), decltype(std::declval<P&>().reset())>> : std::true_type {};
 
 template <class P, class = void> struct is_keep_floor : std::false_type {};
@@ -122,23 +120,23 @@ struct PolicyContract {
       is_matcher<typename Policies::Matcher>::value,
       "stillpoint: Policies::Matcher must offer void match(const FrameView& reference, const FrameView& current, "
       "Matches&) and void reset(); see match/provided_matches.hpp");
-  static_assert(
-      is_ego_motion<typename Policies::EgoMotion, Camera>::value,
-      "stillpoint: Policies::EgoMotion must offer Motion estimate(const Matches&, const Regions&, const Camera&, "
-      "const MotionPrior&, Workspace&); see motion/rigid_motion.hpp");
+  static_assert(is_ego_motion<typename Policies::EgoMotion, Camera>::value,
+                "stillpoint: Policies::EgoMotion must offer Motion estimate(const Observations&, const Camera&, const "
+                "MotionPrior&, "
+                "Workspace&); see motion/rigid_motion.hpp");
   static_assert(is_scorer<typename Policies::Scorer, Camera>::value,
-                "stillpoint: Policies::Scorer must offer void score(const Matches&, const Motion&, const Camera&, "
+                "stillpoint: Policies::Scorer must offer void score(const Observations&, const Motion&, const Camera&, "
                 "span<FeatureScore>); see score/offset_score.hpp");
   static_assert(is_gate<typename Policies::Gate>::value,
                 "stillpoint: Policies::Gate must offer Threshold threshold(span<const FeatureScore>, const Regions&, "
                 "Workspace&); see gate/mean_gate.hpp");
   static_assert(
       is_classifier<typename Policies::Classifier>::value,
-      "stillpoint: Policies::Classifier must offer void classify(const Matches&, span<const FeatureScore>, const "
-      "Threshold&, const Regions&, span<Label>, Workspace&); see cluster/region_clusters.hpp");
+      "stillpoint: Policies::Classifier must offer void classify(const Observations&, const Evidence&, span<Label>, "
+      "Workspace&); see cluster/region_clusters.hpp");
   static_assert(is_memory<typename Policies::Memory>::value,
-                "stillpoint: Policies::Memory must offer void update(const Matches&, const Motion&, span<const "
-                "FeatureScore>, span<Label>, Workspace&) and void reset(); see memory/no_memory.hpp");
+                "stillpoint: Policies::Memory must offer void update(const Observations&, const Motion&, const "
+                "Evidence&, span<Label>, Workspace&) and void reset(); see memory/no_memory.hpp");
   static_assert(
       is_keep_floor<typename Policies::KeepFloor>::value,
       "stillpoint: Policies::KeepFloor must offer std::size_t apply(span<const Vector2f> pixels, const ImageView&, "

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
 
@@ -51,13 +51,14 @@ class NoiseCalibration {
   };
   Options options;
 
-  /// Takes a frame's matches and the motion that was found between its ends.
-  void add(const Matches& matches, const Motion& motion) {
+  /// Takes what was observed of a frame, and the motion that was found between its ends.
+  void add(const Observations& observations, const Motion& motion) {
+    const Matches& matches = observations.matches;
     if (!motion.usable()) return;
     ++frames_;
     if (motion.pixel_sigma > 0) pixel_sigma_.push_back(motion.pixel_sigma);
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (!matches.metric(i) || !(matches.trust[i] >= options.least_trust)) continue;
+      if (!matches.metric(i) || !(observations.remembered.trust[i] >= options.least_trust)) continue;
       const double expected_m = (motion.current_from_reference * matches.reference.point[i]).z();
       add_depth(matches.current.depth_m[i], matches.current.depth_m[i] - expected_m);
     }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -41,10 +41,11 @@ class TailGate {
 
   /// Learns from the host's features that stood until now.
   /// @param labels  with the log-odds of this frame alone
-  void learn(const Matches& matches, span<const Label> labels) {
+  void learn(const Observations& observations, span<const Label> labels) {
+    const Remembered& remembered = observations.remembered;
     std::size_t known = 0, exceeding = 0;
-    for (std::size_t i = 0; i < matches.host_count; ++i) {
-      if (!(matches.recalled_log_odds[i] < kStaticBelow) || !(matches.trust[i] > kTrusted)) continue;
+    for (std::size_t i = 0; i < observations.matches.host_count; ++i) {
+      if (!(remembered.log_odds[i] < kStaticBelow) || !(remembered.trust[i] > kTrusted)) continue;
       ++known;
       exceeding += labels[i].log_odds > 0;
     }

@@ -14,7 +14,7 @@
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/coarse_alignment.hpp"
 #include "stillpoint/match/grid_corners.hpp"
@@ -81,8 +81,8 @@ class CornerTracker {
   }
 
   /// What stood still says where the coming alignment looks.
-  void learn(const Matches& matches, span<const Label> labels) {
-    coarse_.reference_weights.assign(matches, labels, reference_[0].width, reference_[0].height);
+  void learn(const Observations& observations, span<const Label> labels) {
+    coarse_.reference_weights.assign(observations, labels, reference_[0].width, reference_[0].height);
   }
 
   void reset() noexcept {

@@ -13,7 +13,7 @@
 
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
 #include "stillpoint/match/older_frames.hpp"
@@ -59,7 +59,8 @@ class LookBack {
   /// Looks for the surfaces once more, and for the features.
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Matches& matches) const {
+                 const Camera& camera, const Noise& noise, Observations& observations) const {
+    Matches& matches = observations.matches;
     look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.sightings.surfaces,
                       matches.sightings.frames());
     for (std::size_t i = 0; i < matches.size(); ++i) {

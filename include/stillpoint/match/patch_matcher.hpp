@@ -36,11 +36,11 @@ struct PatchMatcher {
   /// And with what became of every feature.
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Matches& matches) const {
-    older.look_back(history, current, filter_from_current, camera, noise, matches);
+                 const Camera& camera, const Noise& noise, Observations& observations) const {
+    older.look_back(history, current, filter_from_current, camera, noise, observations);
   }
 
-  void learn(const Matches& matches, span<const Label> labels) { corners.learn(matches, labels); }
+  void learn(const Observations& observations, span<const Label> labels) { corners.learn(observations, labels); }
 
   void reset() noexcept { corners.reset(); }
 };

@@ -14,7 +14,7 @@
 #include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/frame_history.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
@@ -89,16 +89,17 @@ class ProvidedMatches {
   /// Looks for the surfaces once more, and says where the features were.
   template <class Camera, class Noise>
   void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Matches& matches) const {
+                 const Camera& camera, const Noise& noise, Observations& observations) const {
+    Matches& matches = observations.matches;
     look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.sightings.surfaces,
                       matches.sightings.frames());
     for (std::size_t i = 0; i < matches.host_count && !matches.sightings.frames().empty(); ++i) {
       if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
         look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), history, current, camera, noise,
-             matches);
+             observations);
       } else if (tracks_.length(i) > 0) {
-        look_beside(i, history, current, camera, noise, matches);
+        look_beside(i, history, current, camera, noise, observations);
       }
     }
     space.count_views_through(history.space(), current.timestamp_s, filter_from_current, camera, noise, matches);
@@ -150,14 +151,15 @@ class ProvidedMatches {
   /// A feature without a depth lies on one of the surfaces beside it: the one on which its track is nearer to standing.
   template <class Camera, class Noise>
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
-                   const Noise& noise, Matches& matches) const {
+                   const Noise& noise, Observations& observations) const {
+    const Matches& matches = observations.matches;
     const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i],
                                                       scaled_px(options.surrounding_px, camera), surfaces.guard, noise);
     if (!(beside.farthest_m > 0)) return;
     const bool is_bridged = beside.farthest_m - beside.nearest_m < DepthTolerance().at(noise.sigma(beside.nearest_m));
     const double spread = is_bridged ? kBridgedSpread : kSupposedSpread;
     const auto look_at = [&](double depth_m) {
-      return look(i, depth_m, spread / depth_m, history, current, camera, noise, matches);
+      return look(i, depth_m, spread / depth_m, history, current, camera, noise, observations);
     };
     const float far_px = look_at(beside.farthest_m);
     if (!is_bridged && !(look_at(beside.nearest_m) < far_px)) look_at(beside.farthest_m);
@@ -167,7 +169,8 @@ class ProvidedMatches {
   /// @return how far it was from the places of a standing point, summed over the frames, pixels
   template <class Camera, class Noise>
   float look(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
-             const FrameView& current, const Camera& camera, const Noise& noise, Matches& matches) const {
+             const FrameView& current, const Camera& camera, const Noise& noise, Observations& observations) const {
+    Matches& matches = observations.matches;
     Sightings& sightings = matches.sightings;
     sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
     sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
@@ -188,7 +191,7 @@ class ProvidedMatches {
       sighting.found = tracks_.pixel(i, frame.age);
       sighting.offset_px = (sighting.found - camera.project(place.point).template cast<float>()).norm();
       sum_px += sighting.offset_px;
-      if (sighting.offset_px > options.objection_px && !(matches.recalled_log_odds[i] > options.known_log_odds))
+      if (sighting.offset_px > options.objection_px && !(observations.remembered.log_odds[i] > options.known_log_odds))
         examine(patch, current, past, place, camera, sighting);
     };
     for (OlderFrame& frame : frames) frame.of_feature[i] = Sighting{};

@@ -59,9 +59,10 @@ class SpaceSearch {
         if (seen == Space::free) trust = std::min(trust, kTrustOfWhatCame);
         if (seen == Space::occupied && is_old) ++was_there;
       };
-      for (SurfaceCell& cell : cells) judge(cell.seen, cell.trust, cell.was_there);
+      for (SurfaceCell& cell : cells) judge(cell.seen, cell.space_trust, cell.was_there);
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-        if (matches.current.has_depth(i)) judge(look(matches.current.point[i]), matches.trust[i], matches.was_there[i]);
+        if (matches.current.has_depth(i))
+          judge(look(matches.current.point[i]), matches.space_trust[i], matches.was_there[i]);
     });
     spread_distrust(static_cast<float>(step_px), camera.fx(), matches, workspace);
   }
@@ -88,7 +89,7 @@ class SpaceSearch {
     const span<Side> side = workspace.take<Side>(cells.size());
     const span<Side> next = workspace.take<Side>(cells.size());
     for (std::size_t s = 0; s < cells.size(); ++s)
-      side[s] = cells[s].trust < 1.0f ? Side::came : cells[s].was_there > 0 ? Side::stood : Side::nobody_knows;
+      side[s] = cells[s].space_trust < 1.0f ? Side::came : cells[s].was_there > 0 ? Side::stood : Side::nobody_knows;
     const auto majority = [&](const Vector2f& pixel, double depth_m) {
       int came = 0, stood = 0;
       neighbours.around(pixel, depth_m, [&](std::size_t s) {
@@ -103,11 +104,11 @@ class SpaceSearch {
       std::copy(next.begin(), next.end(), side.begin());
     }
     for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-      if (matches.current.has_depth(i) && matches.trust[i] >= 1.0f && matches.was_there[i] == 0 &&
+      if (matches.current.has_depth(i) && matches.space_trust[i] >= 1.0f && matches.was_there[i] == 0 &&
           majority(matches.current.pixel[i], matches.current.depth_m[i]) == Side::came)
-        matches.trust[i] = kTrustOfWhatCame;
+        matches.space_trust[i] = kTrustOfWhatCame;
     for (std::size_t s = 0; s < cells.size(); ++s)
-      if (side[s] == Side::came) cells[s].trust = std::min(cells[s].trust, kTrustOfWhatCame);
+      if (side[s] == Side::came) cells[s].space_trust = std::min(cells[s].space_trust, kTrustOfWhatCame);
   }
 
   /// Calls `visit(elapsed_s, look)` for each view that is old enough; `look(point)` tells what it saw in a place.

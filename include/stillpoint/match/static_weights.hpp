@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -18,13 +18,16 @@ namespace stillpoint {
 class StaticWeights {
  public:
   /// @param labels  of all features, after the memory
-  void assign(const Matches& matches, span<const Label> labels, int image_width, int image_height) {
+  void assign(const Observations& observations, span<const Label> labels, int image_width, int image_height) {
+    const Matches& matches = observations.matches;
+    const Remembered& remembered = observations.remembered;
     columns_ = std::max(1, (image_width + kCell_px - 1) / kCell_px);
     rows_ = std::max(1, (image_height + kCell_px - 1) / kCell_px);
     sum_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
     for (std::size_t i = 0; i < matches.size(); ++i)
-      add(matches.current.pixel[i], labels[i].keep ? matches.trust[i] : 0.0f, 1.0f);
-    for (const SurfaceCell& cell : matches.sightings.surfaces) add(cell.pixel, cell.trust, kSurfaceVote);
+      add(matches.current.pixel[i], labels[i].keep ? remembered.trust[i] : 0.0f, 1.0f);
+    const span<const SurfaceCell> cells = matches.sightings.surfaces;
+    for (std::size_t s = 0; s < cells.size(); ++s) add(cells[s].pixel, remembered.surface_trust[s], kSurfaceVote);
   }
 
   /// 1 where nothing is known.

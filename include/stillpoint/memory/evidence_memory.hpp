@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "stillpoint/core/depth_tolerance.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -34,8 +34,8 @@ class EvidenceMemory {
   };
   Options options;
 
-  /// Looks every feature and surface cell up in what is remembered, and fills their trust and log-odds.
-  void recall(Matches& matches, Workspace& workspace) {
+  /// Looks every feature and surface cell up in what is remembered, and says what trust and log-odds they have.
+  void recall(const Matches& matches, Remembered& remembered, Workspace& workspace) {
     recalled_.assign(matches.size(), Memory{});
     recalled_of_cell_.assign(matches.sightings.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
@@ -52,22 +52,23 @@ class EvidenceMemory {
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i]
                                                 : steps.before(here, depth_m, tolerance_m, matches.predicted[i]);
       recalled_[i] = look_up(points, pixel, depth_m, tolerance_m);
-      if (settled(matches.was_there[i], matches.trust[i])) recalled_[i].suspicion = 0;
-      matches.trust[i] = std::min(matches.trust[i], trust(recalled_[i].suspicion));
-      matches.recalled_log_odds[i] = recalled_[i].log_odds;
+      if (settled(matches.was_there[i], matches.space_trust[i])) recalled_[i].suspicion = 0;
+      remembered.trust[i] = std::min(matches.space_trust[i], trust(recalled_[i].suspicion));
+      remembered.log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
-      SurfaceCell& cell = matches.sightings.surfaces[s];
+      const SurfaceCell& cell = matches.sightings.surfaces[s];
       const double depth_m = cell.point.z(), tolerance_m = kSameSurface.at(cell.depth_sigma_m);
       recalled_of_cell_[s] =
           look_up(points, steps.before(cell.pixel, depth_m, tolerance_m, cell.predicted), depth_m, tolerance_m);
-      if (settled(cell.was_there, cell.trust)) recalled_of_cell_[s].suspicion = 0;
-      cell.trust = std::min(cell.trust, trust(recalled_of_cell_[s].suspicion));
+      if (settled(cell.was_there, cell.space_trust)) recalled_of_cell_[s].suspicion = 0;
+      remembered.surface_trust[s] = std::min(cell.space_trust, trust(recalled_of_cell_[s].suspicion));
     }
   }
 
   /// Adds this frame's log-odds to what is remembered, and decides.
-  void update(const Matches& matches, const Motion&, span<const FeatureScore>, span<Label> labels, Workspace&) {
+  void update(const Observations& observations, const Motion&, const Evidence&, span<Label> labels, Workspace&) {
+    const Matches& matches = observations.matches;
     pixel_.clear();
     remembered_.clear();
     const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
@@ -78,7 +79,7 @@ class EvidenceMemory {
       const float now = label.log_odds;
       const float least = -kMostLogOdds * (1.0f - kRestlessness * before.suspicion);
       label.log_odds = std::clamp(persistence * before.log_odds + now, least, kMostLogOdds);
-      label.trust = matches.trust[i];
+      label.trust = observations.remembered.trust[i];
       decide(label, now);
       float suspicion = before.suspicion;
       if (label.log_odds > kSuspectAbove) suspicion += suspicion_gain * (1.0f - before.suspicion);

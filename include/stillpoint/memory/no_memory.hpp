@@ -4,8 +4,8 @@
 
 // The paper remembers nothing: each frame is judged by itself.
 
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -14,7 +14,7 @@ namespace stillpoint {
 
 /// The null memory.
 struct NoMemory {
-  void update(const Matches&, const Motion&, span<const FeatureScore>, span<Label>, Workspace&) const noexcept {}
+  void update(const Observations&, const Motion&, const Evidence&, span<Label>, Workspace&) const noexcept {}
   void reset() noexcept {}
 };
 

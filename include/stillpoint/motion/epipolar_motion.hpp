@@ -11,8 +11,8 @@
 #include <limits>
 #include <optional>
 
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/statistics.hpp"
@@ -65,13 +65,15 @@ class EpipolarMotion {
 
   /// @return current_from_reference in metres. Covariance: from the inliers' Sampson errors and the scale's deviation.
   template <class Camera>
-  Motion estimate(const Matches& matches, const Regions& regions, const Camera& camera, const MotionPrior&,
+  Motion estimate(const Observations& observations, const Camera& camera, const MotionPrior&,
                   Workspace& workspace) const {
+    const Matches& matches = observations.matches;
     const Workspace::Scope scope(workspace);
     Motion motion;
-    const auto trusted = [&](std::size_t i) { return matches.trust[i] >= options.least_trust; };
+    const auto trusted = [&](std::size_t i) { return observations.remembered.trust[i] >= options.least_trust; };
     const Pairs pairs =
-        gather(matches, select_candidates(matches, regions, options.candidates, workspace, trusted), camera, workspace);
+        gather(matches, select_candidates(matches, observations.regions, options.candidates, workspace, trusted),
+               camera, workspace);
     motion.candidates = static_cast<int>(pairs.size());
     motion.metric = !options.unit_translation;
     if (pairs.size() < kLeastMatches) {

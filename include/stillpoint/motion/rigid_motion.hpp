@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -49,8 +49,10 @@ class RigidMotion {
 
   /// @return current_from_reference in metres, its covariance from the inliers' normal equations. O(trials × matches).
   template <class Camera>
-  Motion estimate(const Matches& matches, const Regions& regions, const Camera& camera, const MotionPrior&,
+  Motion estimate(const Observations& observations, const Camera& camera, const MotionPrior&,
                   Workspace& workspace) const {
+    const Matches& matches = observations.matches;
+    const Regions& regions = observations.regions;
     const Workspace::Scope scope(workspace);
     Motion motion;
     const auto metric = [&matches](std::size_t i) { return matches.metric(i); };

@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 
 namespace stillpoint {
 
@@ -19,11 +19,12 @@ struct StandingCamera {
   bool is_enabled = true;  ///< false: no camera is taken for stationary; no option in files
 
   /// Between the last frame and this one.
-  bool since_last_frame(const Matches& matches, bool stood) const {
+  bool since_last_frame(const Observations& observations, bool stood) const {
+    const Matches& matches = observations.matches;
     Census census;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i)) continue;
-      census.count(at_rest(matches, i), matches, i);
+      census.count(at_rest(matches, i), observations, i);
     }
     return stands(census, stood);
   }
@@ -35,7 +36,8 @@ struct StandingCamera {
 
   /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: what creeps
   /// is at rest from frame to frame.
-  bool since_older_frames(const Matches& matches) const {
+  bool since_older_frames(const Observations& observations) const {
+    const Matches& matches = observations.matches;
     const OlderFrame* oldest = nullptr;
     for (const OlderFrame& frame : matches.sightings.frames())
       if (frame.reference_from_current.matrix() == Pose::Identity().matrix()) oldest = &frame;
@@ -45,7 +47,7 @@ struct StandingCamera {
       const Sighting& sighting = oldest->of_feature[i];
       if (sighting.state != SightingState::seen || !(sighting.dissimilarity < 2.0f)) continue;
       const double moved_px = (matches.current.undistorted[i] - sighting.found.cast<double>()).norm();
-      census.count(moved_px < kRest_px, matches, i);
+      census.count(moved_px < kRest_px, observations, i);
     }
     return census.empty() || stands(census, true);
   }
@@ -65,13 +67,14 @@ struct StandingCamera {
 
     bool empty() const noexcept { return !(resting.weight + moving.weight > 0); }
 
-    void count(bool at_rest, const Matches& matches, std::size_t i) {
+    void count(bool at_rest, const Observations& observations, std::size_t i) {
+      const FrameFeatures& current = observations.matches.current;
       Group& group = at_rest ? resting : moving;
-      const auto weight = static_cast<double>(matches.trust[i]);
+      const auto weight = static_cast<double>(observations.remembered.trust[i]);
       group.weight += weight;
-      if (!matches.current.has_depth(i)) return;
+      if (!current.has_depth(i)) return;
       group.with_depth += weight;
-      group.inverse_depth += weight / matches.current.depth_m[i];
+      group.inverse_depth += weight / current.depth_m[i];
     }
   };
 

@@ -10,7 +10,7 @@
 #include <cstdint>
 
 #include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -31,8 +31,9 @@ struct SupportConstraints {
 
   /// The matches with the reference frame. `features[k]` is the feature of constraint k.
   template <class Camera>
-  span<PointConstraint> from_matches(const Matches& matches, const Regions& regions, const Camera& camera,
+  span<PointConstraint> from_matches(const Observations& observations, const Camera& camera,
                                      span<std::uint32_t> features, Workspace& workspace) const {
+    const Matches& matches = observations.matches;
     const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
     const double typical_m = typical_depth_m(matches, workspace);
     const span<const std::uint8_t> speaks = area_support(matches, matches.pixel_scale * host_cell_px, workspace);
@@ -40,15 +41,16 @@ struct SupportConstraints {
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i) || speaks[i] == 0) continue;
       features[count] = static_cast<std::uint32_t>(i);
-      points[count++] = from_match(matches, regions, i, typical_m, camera);
+      points[count++] = from_match(observations, i, typical_m, camera);
     }
     return points.first(count);
   }
 
   /// The support corners' sightings in all older frames, frame by frame, and the matches of those without a depth.
   template <class Camera>
-  span<PointConstraint> from_sightings(const Matches& matches, const Regions& regions, const Camera& camera,
+  span<PointConstraint> from_sightings(const Observations& observations, const Camera& camera,
                                        Workspace& workspace) const {
+    const Matches& matches = observations.matches;
     const span<const OlderFrame> frames = matches.sightings.frames();
     const std::size_t corners = matches.size() - matches.first_support();
     const span<PointConstraint> points = workspace.take<PointConstraint>(corners * (frames.size() + 1));
@@ -57,14 +59,14 @@ struct SupportConstraints {
     std::size_t count = 0;
     for (std::size_t i = matches.first_support(); i < matches.size(); ++i)
       if (speaks[i] != 0 && matches.matched(i) && !matches.current.has_depth(i))
-        points[count++] = from_match(matches, regions, i, typical_m, camera);
+        points[count++] = from_match(observations, i, typical_m, camera);
     for (std::size_t f = 0; f < frames.size(); ++f) {
       for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
         const Sighting& sighting = frames[f].of_feature[i];
         if (speaks[i] == 0 || !matches.current.has_depth(i)) continue;
         if (sighting.state != SightingState::seen || !(sighting.dissimilarity < kMostDissimilar)) continue;
         points[count++] =
-            at_depth(matches, regions, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),
+            at_depth(observations, i, sighting.found.cast<double>(), static_cast<double>(sighting.depth_m),
                      static_cast<double>(sighting.depth_sigma_m), f);
       }
     }
@@ -72,14 +74,14 @@ struct SupportConstraints {
   }
 
   /// What these older frames show in the places of the surfaces.
-  span<PlaneConstraint> from_surfaces(const Matches& matches, span<const OlderFrame> frames,
+  span<PlaneConstraint> from_surfaces(const Observations& observations, span<const OlderFrame> frames,
                                       Workspace& workspace) const {
-    const span<PlaneConstraint> planes =
-        workspace.take<PlaneConstraint>(matches.sightings.surfaces.size() * frames.size());
+    const span<const SurfaceCell> cells = observations.matches.sightings.surfaces;
+    const span<PlaneConstraint> planes = workspace.take<PlaneConstraint>(cells.size() * frames.size());
     std::size_t count = 0;
     for (std::size_t f = 0; f < frames.size(); ++f) {
-      for (std::size_t s = 0; s < matches.sightings.surfaces.size(); ++s) {
-        const SurfaceCell& cell = matches.sightings.surfaces[s];
+      for (std::size_t s = 0; s < cells.size(); ++s) {
+        const SurfaceCell& cell = cells[s];
         const SurfaceSighting& sighting = frames[f].of_surface[s];
         if (!(sighting.depth_sigma_m > 0)) continue;
         PlaneConstraint& plane = planes[count++];
@@ -90,7 +92,7 @@ struct SupportConstraints {
             depth_sigma_m(cell.depth_sigma_m, sighting.depth_sigma_m) * std::abs(cell.normal.z()) + kDepthFloor_m;
         plane.slope = frames[f].reference_from_current.linear() * cell.normal / sigma_m;
         plane.trusted_weight = surface_weight;
-        plane.weight = surface_weight * static_cast<double>(cell.trust);
+        plane.weight = surface_weight * static_cast<double>(observations.remembered.surface_trust[s]);
         plane.frame = f;
       }
     }
@@ -107,15 +109,15 @@ struct SupportConstraints {
     return depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m);
   }
 
-  void set_weight(PointConstraint& point, const Matches& matches, const Regions& regions,
-                  std::size_t i) const noexcept {
-    const Membership& region = regions.of_feature[i];
+  void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const noexcept {
+    const Membership& region = observations.regions.of_feature[i];
     point.trusted_weight = region.in_dynamic ? dynamic_trust : region.in_movable ? kMovableTrust : 1.0;
-    point.weight = point.trusted_weight * static_cast<double>(matches.trust[i]);
+    point.weight = point.trusted_weight * static_cast<double>(observations.remembered.trust[i]);
   }
 
-  PointConstraint at_depth(const Matches& matches, const Regions& regions, std::size_t i, const Vector2d& pixel,
-                           double seen_depth_m, double seen_sigma_m, std::size_t frame) const {
+  PointConstraint at_depth(const Observations& observations, std::size_t i, const Vector2d& pixel, double seen_depth_m,
+                           double seen_sigma_m, std::size_t frame) const {
+    const Matches& matches = observations.matches;
     const double z = matches.current.depth_m[i];
     PointConstraint point;
     point.point = matches.current.point[i];
@@ -125,23 +127,24 @@ struct SupportConstraints {
     point.depth_m = seen_depth_m;
     if (seen_depth_m > 0)
       point.depth_slope = 1.0 / (depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + kDepthFloor_m);
-    set_weight(point, matches, regions, i);
+    set_weight(point, observations, i);
     point.frame = frame;
     return point;
   }
 
   template <class Camera>
-  PointConstraint from_match(const Matches& matches, const Regions& regions, std::size_t i, double typical_m,
+  PointConstraint from_match(const Observations& observations, std::size_t i, double typical_m,
                              const Camera& camera) const {
-    const Observations& seen = matches.reference;
+    const Matches& matches = observations.matches;
+    const FrameFeatures& seen = matches.reference;
     if (matches.current.has_depth(i))
-      return at_depth(matches, regions, i, seen.undistorted[i], seen.depth_m[i], seen.depth_sigma_m[i], 0);
+      return at_depth(observations, i, seen.undistorted[i], seen.depth_m[i], seen.depth_sigma_m[i], 0);
     PointConstraint point;
     point.point = camera.back_project(matches.current.undistorted[i], typical_m);
     point.inverse_depth_sigma = kDepthlessSpread / typical_m;
     point.pixel = seen.undistorted[i];
     point.pixel_sigma = pixel_sigma;
-    set_weight(point, matches, regions, i);
+    set_weight(point, observations, i);
     return point;
   }
 

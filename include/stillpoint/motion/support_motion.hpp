@@ -13,8 +13,8 @@
 #include <optional>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
@@ -51,11 +51,12 @@ class SupportMotion {
 
   /// @return status ok, consensus_inverted, no_depth, too_few_matches or no_consensus.
   template <class Camera>
-  Motion estimate(const Matches& matches, const Regions& regions, const Camera& camera, const MotionPrior& prior,
+  Motion estimate(const Observations& observations, const Camera& camera, const MotionPrior& prior,
                   Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
+    const Matches& matches = observations.matches;
     const span<std::uint32_t> features = workspace.take<std::uint32_t>(matches.size());
-    const span<PointConstraint> points = constraints.from_matches(matches, regions, camera, features, workspace);
+    const span<PointConstraint> points = constraints.from_matches(observations, camera, features, workspace);
     Motion motion;
     motion.candidates = static_cast<int>(points.size());
     motion.status = Status::too_few_matches;
@@ -63,7 +64,7 @@ class SupportMotion {
 
     const span<const OlderFrame> frames = matches.sightings.frames();
     auto problem =
-        problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), matches, camera, workspace);
+        problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), observations, camera, workspace);
     const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
     Hypothesis past = polish(expected, problem, kFarCutoffs);
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
@@ -82,7 +83,7 @@ class SupportMotion {
         problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
             past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
-    motion.standing = standing.since_last_frame(matches, prior.standing) &&
+    motion.standing = standing.since_last_frame(observations, prior.standing) &&
                       nothing_creeps(points, features, matches, camera, workspace);
     const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
 
@@ -103,15 +104,15 @@ class SupportMotion {
   /// Refines the motion against all older frames at once: their poses to each other are known, so that one small motion
   /// of the current camera moves them all.
   template <class Camera>
-  void refine(Matches& matches, const Regions& regions, const Camera& camera, const MotionPrior& prior, Motion& motion,
+  void refine(Observations& observations, const Camera& camera, const MotionPrior& prior, Motion& motion,
               Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
-    if (motion.standing && standing.since_older_frames(matches)) return;
+    if (motion.standing && standing.since_older_frames(observations)) return;
     motion.standing = false;
-    const span<OlderFrame> frames = matches.sightings.frames();
-    const span<PointConstraint> points = constraints.from_sightings(matches, regions, camera, workspace);
+    const span<OlderFrame> frames = observations.matches.sightings.frames();
+    const span<PointConstraint> points = constraints.from_sightings(observations, camera, workspace);
     if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
-    auto problem = problem_of(points, frames, matches, camera, workspace);
+    auto problem = problem_of(points, frames, observations, camera, workspace);
     calibrate(frames[0].reference_from_current, problem, workspace);
     Hypothesis trusted;
     trusted.reference_from_current = frames[0].reference_from_current;
@@ -154,13 +155,16 @@ class SupportMotion {
 
   /// Points, and the surfaces that a survey has found in these frames, if there was one.
   template <class Camera>
-  SupportProblem<Camera> problem_of(span<PointConstraint> points, span<const OlderFrame> frames, const Matches& matches,
-                                    const Camera& camera, Workspace& workspace) const {
+  SupportProblem<Camera> problem_of(span<PointConstraint> points, span<const OlderFrame> frames,
+                                    const Observations& observations, const Camera& camera,
+                                    Workspace& workspace) const {
     const std::size_t count = std::max<std::size_t>(frames.size(), 1);
     const span<Pose> poses = workspace.take<Pose>(count, Pose::Identity());
     const span<Pose> links = workspace.take<Pose>(count, Pose::Identity());
     for (std::size_t f = 0; f < frames.size(); ++f) poses[f] = frames[f].reference_from_current;
-    return {points, constraints.from_surfaces(matches, frames, workspace), poses, links, camera, options.inlier_sigmas};
+    return {points, constraints.from_surfaces(observations, frames, workspace),
+            poses,  links,
+            camera, options.inlier_sigmas};
   }
 
   /// Is what is at rest better explained by a motion too small to see in any corner by itself?

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
@@ -74,7 +74,8 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// What moved how since the frame before: the features on each thing carry it.
   template <class Camera>
-  void observe(const Matches& matches, const Motion& motion, const Camera& camera) {
+  void observe(const Observations& observations, const Motion& motion, const Camera& camera) {
+    const Matches& matches = observations.matches;
     if (pictures_.empty()) return;
     pictures_.reserve(matches.size());
     PictureMotion& picture = pictures_.newest();

@@ -8,8 +8,8 @@
 #include <cstddef>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -27,7 +27,8 @@ class OffsetScore {
 
   /// Scores the features with a 3D point in both frames; the others keep NaN.
   template <class Camera>
-  void score(const Matches& matches, const Motion& motion, const Camera&, span<FeatureScore> scores) const {
+  void score(const Observations& observations, const Motion& motion, const Camera&, span<FeatureScore> scores) const {
+    const Matches& matches = observations.matches;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.metric(i)) continue;
       const Vector3d transferred = motion.current_from_reference * matches.reference.point[i];  // Eq. 6

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
@@ -37,11 +37,12 @@ class SampsonScore {
 
   /// Scores the features that are matched; the others keep NaN.
   template <class Camera>
-  void score(const Matches& matches, const Motion& motion, const Camera& camera, span<FeatureScore> scores) {
+  void score(const Observations& observations, const Motion& motion, const Camera& camera, span<FeatureScore> scores) {
+    const Matches& matches = observations.matches;
     const Geometry<Camera> geometry(motion, camera);
     distances_.clear();
     for (std::size_t i = 0; i < matches.size(); ++i)
-      if (matches.matched(i) && matches.trust[i] >= options.least_trust)
+      if (matches.matched(i) && observations.remembered.trust[i] >= options.least_trust)
         distances_.push_back(geometry.distance_px(matches, i));
     if (distances_.size() < kFewestMatches) return;
     const double measured_px = kMadToSigma * median_in_place(span<double>(distances_));

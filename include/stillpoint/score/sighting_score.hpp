@@ -11,8 +11,8 @@
 #include <limits>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -37,7 +37,9 @@ class SightingScore {
 
   /// Features without any sighting keep NaN.
   template <class Camera>
-  void score(const Matches& matches, const Motion& motion, const Camera& camera, span<FeatureScore> scores) const {
+  void score(const Observations& observations, const Motion& motion, const Camera& camera,
+             span<FeatureScore> scores) const {
+    const Matches& matches = observations.matches;
     if (matches.sightings.frames().empty()) return;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       constexpr double kNever = -std::numeric_limits<double>::infinity();

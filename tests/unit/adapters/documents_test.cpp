@@ -66,9 +66,9 @@ void set_filtered_features(const stillpoint::FrameResult& result, std::vector<cv
 }
 
 /// Between trackImage and inputFeature. `ids` in the order of the key points that were filtered.
-template <class Observations>
+template <class FrameFeatures>
 void erase_moving(const stillpoint::FrameResult& result, const std::vector<int>& ids,
-                  std::map<int, Observations>& feature_frame) {
+                  std::map<int, FrameFeatures>& feature_frame) {
   std::set<int> dropped;
   stillpoint::vins::dropped_ids(result.keep(), ids, dropped);
   stillpoint::vins::erase_features(dropped, feature_frame);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stillpoint/core/policy_traits.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint {
 namespace {
@@ -45,7 +46,7 @@ class FlowNeighboursTest : public testing::Test {
   }
   Label label_of(std::size_t i) {
     std::vector<Label> labels(matches.size());
-    classifier.classify(matches, scores, Threshold{1.0}, regions, labels, workspace);
+    classifier.classify(test::observations_of(matches, regions), {scores, {1.0}}, labels, workspace);
     return labels[i];
   }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stillpoint/core/policy_traits.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::region_clusters_test {
 namespace {
@@ -43,7 +44,7 @@ struct Scene {
   const std::vector<Label>& classify(double level) {
     labels.assign(matches.size(), Label{});
     Workspace workspace;
-    classifier.classify(matches, scores, Threshold{level}, regions, span<Label>(labels), workspace);
+    classifier.classify(test::observations_of(matches, regions), {scores, {level}}, span<Label>(labels), workspace);
     return labels;
   }
 

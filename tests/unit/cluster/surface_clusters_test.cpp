@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stillpoint/core/policy_traits.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::surface_clusters_test {
 namespace {
@@ -46,7 +47,7 @@ class SurfaceClustersTest : public testing::Test {
     Workspace workspace;
     regions_.locate(matches_.current.pixel);
     labels_.assign(matches_.size(), Label{});
-    clusters_.classify(matches_, scores_, Threshold{1.0}, regions_, labels_, workspace);
+    clusters_.classify(test::observations_of(matches_, regions_), {scores_, {1.0}}, labels_, workspace);
   }
 
   SurfaceClusters clusters_;

@@ -90,7 +90,7 @@ TEST(Lift, FillsTheObservationsOfAFrame) {
   depth.at<std::uint16_t>(1, 3) = 10000;         // 2 m
   const FrameView frame(gray, DepthView(depth), 0.0);
 
-  Observations observations;
+  FrameFeatures observations;
   observations.resize(4);
   // Pixel (7, 3): depth pixel (3.25, 1.25) → (3, 1). On the plane (0.4, −0.2).
   observations.pixel = {{7, 3}, {1, 1}, {kNaN, 2}, {20, 3}};
@@ -117,7 +117,7 @@ TEST(Lift, FillsTheObservationsOfAFrame) {
 TEST(Lift, WithoutADepthImageGivesPixelsOnly) {
   const Camera camera(5, 5, 5, 4, 10, 8);
   const cv::Mat gray(8, 10, CV_8UC1, cv::Scalar(0));
-  Observations observations;
+  FrameFeatures observations;
   observations.resize(1);
   observations.pixel[0] = {7, 3};
   lift(FrameView(gray, DepthView(), 0.0), RoundedDepth{}, camera, KinectNoise{}, observations);
@@ -127,7 +127,7 @@ TEST(Lift, WithoutADepthImageGivesPixelsOnly) {
 
 TEST(MedianDepth, CountsOnlyWhatHasADepth) {
   Workspace workspace;
-  Observations observations;
+  FrameFeatures observations;
   observations.resize(5);
   EXPECT_EQ(median_depth_m(observations, workspace), 0.0) << "no feature has a depth";
   observations.depth_m = {3.0, 0.0, 1.0, 0.0, 2.0};

@@ -61,9 +61,9 @@ TEST(Matches, AreMetricOnlyWhenMatchedWithDepthAtBothEnds) {
   }
 }
 
-TEST(Observations, SetDepthTakesADepthBack) {
+TEST(FrameFeatures, SetDepthTakesADepthBack) {
   const Camera camera(500, 400, 320, 230, 640, 480);
-  Observations observations;
+  FrameFeatures observations;
   observations.resize(1);
   observations.undistorted[0] = {420, 170};
   observations.set_depth(0, 2.0, 0.02, camera);

@@ -10,6 +10,7 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/random.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint {
 namespace {
@@ -37,7 +38,7 @@ CalibratedNoise calibrate(const Noise& noise, double nearest_m, double farthest_
       matches.reference.set_depth(i, z + noise.sigma(z) * random.gaussian(), 0.01, camera);
       matches.current.set_depth(i, z - 0.02 + moved + noise.sigma(z) * random.gaussian(), 0.01, camera);
     }
-    calibration.add(matches, motion);
+    calibration.add(test::observations_of(matches), motion);
   }
   return calibration.result(assumed);
 }
@@ -119,13 +120,13 @@ TEST(NoiseCalibration, OnlyTrustedMatchesWithDepthAndMotionsCount) {
     matches.reference.set_depth(i, 2.0, 0.01, camera);
     matches.current.set_depth(i, 2.01, 0.01, camera);
   }
-  matches.trust[0] = 0.5f;
+  matches.space_trust[0] = 0.5f;
   matches.current.set_depth(1, 0.0, 0.01, camera);
   motion.status = Status::no_consensus;
-  calibration.add(matches, motion);
+  calibration.add(test::observations_of(matches), motion);
   EXPECT_FALSE(calibration.result(KinectNoise{}).has_depth());
   motion.status = Status::ok;
-  calibration.add(matches, motion);
+  calibration.add(test::observations_of(matches), motion);
   const CalibratedNoise found = calibration.result(KinectNoise{});
   ASSERT_EQ(found.depth.size(), 1u);
   EXPECT_EQ(found.depth[0].samples, 1u);

@@ -69,14 +69,15 @@ TEST(TailGate, DoesNotLookAtTheScores) {
 
 // What a frame of features looks like to a gate that learns.
 struct Frame {
-  Matches matches;
+  Observations observations;
   std::vector<Label> labels;
 
   /// @param exceeding  of the features that stood until now
   Frame(std::size_t known, std::size_t exceeding) : labels(known) {
-    matches.begin(std::vector<Vector2f>(known, Vector2f(1, 1)));
+    observations.matches.begin(std::vector<Vector2f>(known, Vector2f(1, 1)));
+    observations.remembered.begin(observations.matches);
     for (std::size_t i = 0; i < known; ++i) {
-      matches.recalled_log_odds[i] = -3.0f;
+      observations.remembered.log_odds[i] = -3.0f;
       labels[i].log_odds = i < exceeding ? 0.5f : -1.0f;
     }
   }
@@ -87,9 +88,9 @@ struct Frame {
 TEST(TailGate, RisesWhereMoreThanTheRateOfWhatStandsExceeds) {
   TailGate learner = gate(0.01);
   const Frame twice(100, 2), often(100, 10);
-  learner.learn(twice.matches, twice.labels);
+  learner.learn(twice.observations, twice.labels);
   EXPECT_NEAR(learner.raised(), 0.01, 1e-12);
-  learner.learn(often.matches, often.labels);
+  learner.learn(often.observations, often.labels);
   EXPECT_NEAR(learner.raised(), 0.02, 1e-12);
   Workspace workspace;
   EXPECT_NEAR(learner.threshold({}, Regions{}, workspace).level, 2.32, 1e-12);
@@ -100,11 +101,11 @@ TEST(TailGate, RisesWhereMoreThanTheRateOfWhatStandsExceeds) {
 TEST(TailGate, SinksBackToThePriorAndNoLower) {
   TailGate learner = gate(0.01);
   const Frame loud(100, 50), quiet(100, 0);
-  for (int i = 0; i < 1000; ++i) learner.learn(loud.matches, loud.labels);
+  for (int i = 0; i < 1000; ++i) learner.learn(loud.observations, loud.labels);
   EXPECT_EQ(learner.raised(), 3.0) << "nats";
-  learner.learn(quiet.matches, quiet.labels);
+  learner.learn(quiet.observations, quiet.labels);
   EXPECT_NEAR(learner.raised(), 3.0 - 0.01, 1e-12);
-  for (int i = 0; i < 1000; ++i) learner.learn(quiet.matches, quiet.labels);
+  for (int i = 0; i < 1000; ++i) learner.learn(quiet.observations, quiet.labels);
   EXPECT_EQ(learner.raised(), 0.0);
 }
 
@@ -112,10 +113,10 @@ TEST(TailGate, LearnsOnlyFromWhatIsKnownToStand) {
   TailGate learner = gate(0.01);
   Frame moving(100, 100), suspect(100, 100), corners(100, 100);
   Frame few(49, 40);  // 50 are needed
-  for (float& log_odds : moving.matches.recalled_log_odds) log_odds = -1.0f;
-  for (float& trust : suspect.matches.trust) trust = 0.9f;
-  corners.matches.host_count = 0;  // the matcher's own
-  for (Frame* frame : {&moving, &suspect, &corners, &few}) learner.learn(frame->matches, frame->labels);
+  for (float& log_odds : moving.observations.remembered.log_odds) log_odds = -1.0f;
+  for (float& trust : suspect.observations.remembered.trust) trust = 0.9f;
+  corners.observations.matches.host_count = 0;  // the matcher's own
+  for (Frame* frame : {&moving, &suspect, &corners, &few}) learner.learn(frame->observations, frame->labels);
   EXPECT_EQ(learner.raised(), 0.0);
 }
 
@@ -132,7 +133,7 @@ TEST(TailGate, FindsTheLevelOfALongerTail) {
     const double probability = 0.05 * std::exp(-learner.raised() / 0.8);
     for (int i = 0; i < 300; ++i) exceeding += random.uniform() < probability;
     const Frame frame(300, exceeding);
-    learner.learn(frame.matches, frame.labels);
+    learner.learn(frame.observations, frame.labels);
     if (f >= 1400) sum += learner.raised() / 100;
   }
   EXPECT_NEAR(sum, 0.8 * std::log(5.0), 4 * 0.8 / std::sqrt(300.0));

@@ -13,6 +13,7 @@
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::coarse_alignment_test {
 namespace {
@@ -127,7 +128,7 @@ TEST_F(CoarseAlignmentTest, WhatMovesHasNoSay) {
   for (std::size_t i = 0; i < pixels.size(); ++i)
     labels[i].keep =
         !(pixels[i].x() >= static_cast<float>(left) && pixels[i].x() < static_cast<float>(left + width + shift));
-  alignment_.reference_weights.assign(matches, labels, image.cols, image.rows);
+  alignment_.reference_weights.assign(test::observations_of(matches), labels, image.cols, image.rows);
   EXPECT_LT(error_px(reference, current, Pose::Identity()), 1.0);
 }
 

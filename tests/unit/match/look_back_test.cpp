@@ -18,6 +18,7 @@
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
+#include "unit/observations_of.hpp"
 #include "wave_texture.hpp"
 
 namespace stillpoint {
@@ -89,7 +90,9 @@ class LookBackTest : public testing::Test {
     matches_.begin(std::vector<Vector2f>{pixel});
     lift(current, GuardedDepth(), camera_, noise_, matches_.current);
     look_back_.survey(history, current, filter_from_current_, camera_, noise_, matches_, workspace_);
-    look_back_.look_back(history, current, filter_from_current_, camera_, noise_, matches_);
+    Observations observations = test::observations_of(matches_);
+    look_back_.look_back(history, current, filter_from_current_, camera_, noise_, observations);
+    matches_ = observations.matches;
     EXPECT_EQ(matches_.sightings.frames().size(), 1u);
     return matches_.sightings.frames()[0].of_feature[0];
   }
@@ -254,7 +257,9 @@ struct Rendered {
     look_back.options.slowest_m_s = 0.01;
     look_back.options.longest_s = 0.16;
     look_back.survey(history, frame.view(), frame.world_from_camera, scene.camera, noise, matches, workspace);
-    look_back.look_back(history, frame.view(), frame.world_from_camera, scene.camera, noise, matches);
+    Observations observations = test::observations_of(matches);
+    look_back.look_back(history, frame.view(), frame.world_from_camera, scene.camera, noise, observations);
+    matches = observations.matches;
   }
 
   int label(std::size_t i) const {

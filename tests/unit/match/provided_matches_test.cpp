@@ -17,6 +17,7 @@
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::provided_matches_test {
 namespace {
@@ -118,7 +119,9 @@ class ChainedTracksTest : public testing::Test {
     lift(reference, GuardedDepth(), camera_, KinectNoise(), matches_.reference);
     if (!history_.empty()) {
       matcher_.survey(history_, current, Pose::Identity(), camera_, KinectNoise(), matches_, workspace_);
-      matcher_.look_back(history_, current, Pose::Identity(), camera_, KinectNoise(), matches_);
+      Observations observations = test::observations_of(matches_);
+      matcher_.look_back(history_, current, Pose::Identity(), camera_, KinectNoise(), observations);
+      matches_ = observations.matches;
     }
     history_.push(current, Pose::Identity());
     return matches_;

@@ -136,14 +136,14 @@ TEST_F(SpaceSearchTest, TheMotionSinceIsTakenOut) {
 }
 
 TEST_F(SpaceSearchTest, ASurfaceThatCameHasLittleSay) {
-  EXPECT_LT(cell(2.0, 9).trust, 0.1f);
+  EXPECT_LT(cell(2.0, 9).space_trust, 0.1f);
   EXPECT_EQ(cell(2.0, 9).was_there, 0);
-  EXPECT_EQ(cell(3.0, 9).trust, 1.0f);
+  EXPECT_EQ(cell(3.0, 9).space_trust, 1.0f);
   EXPECT_EQ(cell(3.0, 9).was_there, 6) << "views of 2.4 to 4.4 s ago";
 }
 
 // One of one saw through: more than what people hide of a room. The view's pose is in doubt, not the surface.
-TEST_F(SpaceSearchTest, AViewThatSeesThroughEverythingSaysNothing) { EXPECT_EQ(cell(2.0, 0).trust, 1.0f); }
+TEST_F(SpaceSearchTest, AViewThatSeesThroughEverythingSaysNothing) { EXPECT_EQ(cell(2.0, 0).space_trust, 1.0f); }
 
 // The views saw nothing left of column 160. A body at 2 m spans the whole row at v = 100, but for a gap at u = 40; the
 // wall is the row at v = 180, the steps between both are edges. Right of the middle the views saw through the body:
@@ -174,11 +174,11 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
   for (std::size_t s = 0; s < matches.sightings.surfaces.size(); ++s) {
     const SurfaceCell& cell = matches.sightings.surfaces[s];
     if (s < body_count && cell.pixel.x() > 60)
-      EXPECT_LT(cell.trust, 0.1f) << cell.pixel.transpose();
+      EXPECT_LT(cell.space_trust, 0.1f) << cell.pixel.transpose();
     else
-      EXPECT_EQ(cell.trust, 1.0f) << cell.pixel.transpose();
+      EXPECT_EQ(cell.space_trust, 1.0f) << cell.pixel.transpose();
   }
-  EXPECT_LT(matches.trust[0], 0.1f);
+  EXPECT_LT(matches.space_trust[0], 0.1f);
 }
 
 TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {
@@ -187,7 +187,7 @@ TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {
   depth_.setTo(0.0);
   history_.push(view_of(gray_, depth_, 0), Pose::Identity());
   EXPECT_EQ(through(2.0), 0);
-  EXPECT_EQ(cell(2.0, 3).trust, 1.0f);
+  EXPECT_EQ(cell(2.0, 3).space_trust, 1.0f);
 }
 
 }  // namespace

@@ -49,13 +49,17 @@ class EvidenceMemoryTest : public testing::Test {
       matches_.current.depth_sigma_m[i] = 0.008;  // one surface: within 0.06 + 5 · 0.008 = 0.1 m
     }
     matches_.sightings.surfaces = surfaces_;
-    memory_.recall(matches_, workspace_);
+    recall();
     labels_.assign(features.size(), Label{});
     for (std::size_t i = 0; i < features.size(); ++i) {
       labels_[i].log_odds = log_odds[i];
       labels_[i].reason = reason;
     }
-    memory_.update(matches_, Motion{}, {}, labels_, workspace_);
+    memory_.update({matches_, {}, remembered_}, Motion{}, {}, labels_, workspace_);
+  }
+  void recall() {
+    remembered_.begin(matches_);
+    memory_.recall(matches_, remembered_, workspace_);
   }
   void frame(float log_odds) { frame({{Vector2f(50, 50)}}, {log_odds}); }
 
@@ -68,6 +72,7 @@ class EvidenceMemoryTest : public testing::Test {
 
   EvidenceMemory memory_;
   Matches matches_;
+  Remembered remembered_;
   double elapsed_s_ = kElapsed_s;      ///< from each frame to the next
   std::vector<SurfaceCell> surfaces_;  ///< of every frame
   std::vector<Label> labels_;
@@ -142,9 +147,9 @@ TEST_F(EvidenceMemoryTest, AMatchedFeatureIsLookedUpWhereItWas) {
   matches_.current.depth_m[0] = 2.0;
   matches_.reference.pixel[0] = {50, 50};
   matches_.state[0] = MatchState::matched;
-  memory_.recall(matches_, workspace_);
+  recall();
   labels_.assign(1, Label{});
-  memory_.update(matches_, Motion{}, {}, labels_, workspace_);
+  memory_.update({matches_, {}, remembered_}, Motion{}, {}, labels_, workspace_);
   EXPECT_NEAR(labels_[0].log_odds, 1.5f, kRounding);
 }
 
@@ -180,8 +185,8 @@ TEST_F(EvidenceMemoryTest, AFeatureThatNobodyFollowedIsLookedUpWhereItsSurfaceWa
     matches_.current.depth_m[0] = 2.0;
     matches_.current.depth_m[1] = corner_depth_m;
     matches_.current.depth_sigma_m.assign(2, 0.008);
-    memory_.recall(matches_, workspace_);
-    EXPECT_NEAR(matches_.recalled_log_odds[0] * 0.5f, recalled, kRounding) << corner_depth_m;
+    recall();
+    EXPECT_NEAR(remembered_.log_odds[0] * 0.5f, recalled, kRounding) << corner_depth_m;
   }
 }
 
@@ -190,7 +195,7 @@ TEST_F(EvidenceMemoryTest, ResetForgets) {
   memory_.reset();
   frame(-0.1f);
   EXPECT_NEAR(labels_[0].log_odds, -0.1f, kRounding);
-  EXPECT_EQ(matches_.trust[0], 1.0f);
+  EXPECT_EQ(remembered_.trust[0], 1.0f);
 }
 
 // ---- Suspicion ----
@@ -199,13 +204,13 @@ TEST_F(EvidenceMemoryTest, ResetForgets) {
 TEST_F(EvidenceMemoryTest, WhatMovedOnceHasLittleSayForLong) {
   frame(-2.0f);
   frame(-2.0f);
-  EXPECT_EQ(matches_.trust[0], 1.0f);
+  EXPECT_EQ(remembered_.trust[0], 1.0f);
   frame(5.0f);
   frame(-6.0f);
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
   frame(-6.0f);
   EXPECT_TRUE(labels_[0].keep) << "suspicion drives no verdict";
-  EXPECT_LT(matches_.trust[0], 0.3f);
+  EXPECT_LT(remembered_.trust[0], 0.3f);
 }
 
 // It moved, which makes it suspect in full; then it stands for long, and its log-odds are held at
@@ -216,7 +221,7 @@ TEST_F(EvidenceMemoryTest, WhatMovedOnceIsFoundSoonerWhenItStartsAgain) {
   EXPECT_NEAR(labels_[0].log_odds, -3.0f * (1.0f - 0.6f * 0.9f), kRounding);
   EXPECT_NEAR(labels_[1].log_odds, -3.0f, kRounding);
   EXPECT_LT(labels_[0].trust, 0.3f);
-  EXPECT_EQ(labels_[0].trust, matches_.trust[0]);
+  EXPECT_EQ(labels_[0].trust, remembered_.trust[0]);
   EXPECT_EQ(labels_[1].trust, 1.0f);
 }
 
@@ -241,7 +246,7 @@ TEST_F(EvidenceMemoryTest, SuspicionIsInheritedByMajority) {
     ring(suspects, features, log_odds);
     frame(features, log_odds);
     frame(-1.0f);  // one new feature in the middle, 20 px from each
-    EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * suspicion, 1e-3f) << suspects;
+    EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * suspicion, 1e-3f) << suspects;
     EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a new feature inherits no log-odds";
   }
 }
@@ -252,7 +257,7 @@ TEST_F(EvidenceMemoryTest, SuspicionDoesNotJumpToAnotherSurface) {
   ring(10, features, log_odds);
   frame(features, log_odds);
   frame({{Vector2f(50, 50), 3.0}}, {-1.0f});
-  EXPECT_EQ(matches_.trust[0], 1.0f);
+  EXPECT_EQ(remembered_.trust[0], 1.0f);
 }
 
 TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
@@ -261,10 +266,10 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
   ring(10, features, log_odds);
   frame(features, log_odds);
   matches_.sightings.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
-  memory_.recall(matches_, workspace_);
-  EXPECT_NEAR(matches_.sightings.surfaces[0].trust, 1.0f - 0.99f * 0.9f, kRounding);
-  EXPECT_EQ(matches_.sightings.surfaces[1].trust, 1.0f);
-  EXPECT_EQ(matches_.sightings.surfaces[2].trust, 1.0f);
+  recall();
+  EXPECT_NEAR(remembered_.surface_trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_EQ(remembered_.surface_trust[1], 1.0f);
+  EXPECT_EQ(remembered_.surface_trust[2], 1.0f);
 }
 
 // Two views of seconds ago saw a surface in its place, and none saw through: what is suspected there is so by mistake.
@@ -278,13 +283,13 @@ TEST_F(EvidenceMemoryTest, WhatHasStoodForSecondsIsSuspectedNoMore) {
     matches_.current.depth_m[0] = 2.0;
     matches_.current.depth_sigma_m[0] = 0.008;
     matches_.was_there[0] = static_cast<std::uint8_t>(was_there);
-    matches_.trust[0] = trust;
+    matches_.space_trust[0] = trust;
     matches_.sightings.surfaces = {cell(50, 2.0)};
     matches_.sightings.surfaces[0].was_there = static_cast<std::uint8_t>(was_there);
-    matches_.sightings.surfaces[0].trust = trust;
-    memory_.recall(matches_, workspace_);
-    EXPECT_NEAR(matches_.trust[0], expected, kRounding) << was_there << " " << trust;
-    EXPECT_NEAR(matches_.sightings.surfaces[0].trust, expected, kRounding) << was_there << " " << trust;
+    matches_.sightings.surfaces[0].space_trust = trust;
+    recall();
+    EXPECT_NEAR(remembered_.trust[0], expected, kRounding) << was_there << " " << trust;
+    EXPECT_NEAR(remembered_.surface_trust[0], expected, kRounding) << was_there << " " << trust;
   }
 }
 
@@ -299,9 +304,9 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsHandSuspicionOnWhereThereIsNoFeature) {
   frame(features, log_odds);
   frame({{Vector2f(300, 300)}}, {-1.0f});
   frame({{Vector2f(50, 50)}, {Vector2f(50, 52), 3.0}, {Vector2f(120, 50)}}, {-1.0f, -1.0f, -1.0f});
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
-  EXPECT_EQ(matches_.trust[1], 1.0f) << "another surface";
-  EXPECT_EQ(matches_.trust[2], 1.0f) << "a cell that was never beside anything that moved";
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_EQ(remembered_.trust[1], 1.0f) << "another surface";
+  EXPECT_EQ(remembered_.trust[2], 1.0f) << "a cell that was never beside anything that moved";
   EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a cell hands no log-odds on";
 }
 
@@ -313,7 +318,7 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
   ring(10, features, log_odds);
   frame(features, log_odds);
   frame({{Vector2f(50, 50), 0.0}}, {-1.0f});
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding) << "there is no other to ask";
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding) << "there is no other to ask";
   memory_.reset();
   ring(0, depthless, standing);
   for (std::size_t k = 0; k < depthless.size(); ++k) {
@@ -322,8 +327,8 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
   }
   frame(features, log_odds);
   frame({{Vector2f(50, 50)}, {Vector2f(50, 50), 0.0}}, {-1.0f, -1.0f});
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
-  EXPECT_EQ(matches_.trust[1], 1.0f);
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_EQ(remembered_.trust[1], 1.0f);
 }
 
 // A gain of 0.6: the first frame adds 0.6, which a majority of (0.6 − 0.25) / 0.5 = 0.7 hands on, times 0.9: 0.63. The
@@ -332,9 +337,9 @@ TEST_F(EvidenceMemoryTest, SuspicionGrowsFromFrameToFrame) {
   memory_.options.suspicion_rise_s = kElapsed_s / std::log(1.0 / 0.4);
   frame(2.5f);
   frame(2.5f);
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.63f, kRounding);
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.63f, kRounding);
   frame(2.5f);
-  EXPECT_NEAR(matches_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
 }
 
 TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {
@@ -343,7 +348,7 @@ TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {
     frame({{Vector2f(kNaN, 50)}, {Vector2f(1e30f, 1e30f)}, {Vector2f(-50, -50), 0.0}}, {-1, -1, 2});
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_TRUE(std::isfinite(labels_[i].log_odds));
-      EXPECT_TRUE(std::isfinite(matches_.trust[i]));
+      EXPECT_TRUE(std::isfinite(remembered_.trust[i]));
     }
   }
   frame({}, {});

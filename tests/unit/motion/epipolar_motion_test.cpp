@@ -10,6 +10,7 @@
 
 #include "motion_scene.hpp"
 #include "stillpoint/core/policy_traits.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::epipolar_motion_test {
 namespace {
@@ -22,7 +23,7 @@ static_assert(!is_ego_motion<int, TestCamera>::value);
 
 Motion estimate(const EpipolarMotion& policy, const Matches& matches, const Regions& regions = {}) {
   Workspace workspace;
-  return policy.estimate(matches, regions, test::test_camera(), MotionPrior{}, workspace);
+  return policy.estimate(test::observations_of(matches, regions), test::test_camera(), MotionPrior{}, workspace);
 }
 
 const Pose kMotion = test::pose_of({0.02, -0.03, 0.01}, {0.05, -0.02, 0.03});

@@ -52,7 +52,7 @@ inline Matches make_matches(const Pose& current_from_reference, const SceneOptio
   const auto noisy = [&](const Vector2d& pixel) -> Vector2d {
     return pixel + options.pixel_noise_px * Vector2d(random.gaussian(), random.gaussian());
   };
-  const auto write = [&](Observations& side, std::size_t i, const Vector3d& point) {
+  const auto write = [&](FrameFeatures& side, std::size_t i, const Vector3d& point) {
     side.undistorted[i] = noisy(camera.project(point));
     side.pixel[i] = side.undistorted[i].cast<float>();
     const double depth = point.z() * (1.0 + options.depth_noise_share * random.gaussian());

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "motion_scene.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint {
 namespace {
@@ -25,7 +26,7 @@ class StandingCameraTest : public testing::Test {
     matches_.resize(first + count);
     for (std::size_t i = first; i < matches_.size(); ++i) {
       matches_.state[i] = MatchState::matched;
-      matches_.trust[i] = trust;
+      matches_.space_trust[i] = trust;
       matches_.reference.undistorted[i] = {300.0, 200.0};
       // Askew by 3 : 4, so that both coordinates count.
       matches_.current.undistorted[i] = Vector2d(300.0, 200.0) + moved_px * Vector2d(0.6, -0.8);
@@ -49,7 +50,7 @@ class StandingCameraTest : public testing::Test {
     for (std::size_t i = first; i < first + count; ++i) frame.of_feature[i].found += moved_px * Vector2f(0.8f, 0.6f);
   }
 
-  bool stands(bool stood) const { return camera_.since_last_frame(matches_, stood); }
+  bool stands(bool stood) const { return camera_.since_last_frame(test::observations_of(matches_), stood); }
 
   StandingCamera camera_;
   Matches matches_;
@@ -150,7 +151,7 @@ TEST_F(StandingCameraTest, WhatIsSuspectAndMovesDisprovesLess) {
   add(50, 0.0, 2.0);
   add(50, 2.0, 2.0, 0.1f);
   EXPECT_TRUE(stands(false)) << "50 of 55";
-  for (float& trust : matches_.trust) trust = 1.0f;
+  for (float& trust : matches_.space_trust) trust = 1.0f;
   EXPECT_FALSE(stands(false)) << "50 of 100";
 }
 
@@ -162,48 +163,49 @@ TEST_F(StandingCameraTest, TrustWeighsTheDepthsToo) {
   add(10, 0.0, 0.3, 0.1f);
   add(80, 2.0, 1.0);
   EXPECT_TRUE(stands(true));
-  for (float& trust : matches_.trust) trust = 1.0f;
+  for (float& trust : matches_.space_trust) trust = 1.0f;
   EXPECT_FALSE(stands(true));
   matches_.resize(0);
   add(10, 0.0, 0.9);
   add(10, 0.0, 3.0, 0.1f);
   add(80, 2.0, 1.0);
   EXPECT_FALSE(stands(true));
-  for (float& trust : matches_.trust) trust = 1.0f;
+  for (float& trust : matches_.space_trust) trust = 1.0f;
   EXPECT_TRUE(stands(true));
 }
 
 // ---- Since older frames ----
 
 TEST_F(StandingCameraTest, WithoutAnOlderFrameNothingSpeaksAgainst) {
-  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));
 }
 
 TEST_F(StandingCameraTest, WhatCreepsShowsInAnOlderFrame) {
   add(100, 0.05, 2.0);
   look_back();
-  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));
   move(look_back(), 0, 100, 0.5f);
   EXPECT_TRUE(stands(true)) << "not to be seen from frame to frame";
-  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "all moved by half a pixel";
+  EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_))) << "all moved by half a pixel";
 }
 
 TEST_F(StandingCameraTest, TheOldestFrameOfTheStandIsAsked) {
   add(100, 0.0, 2.0);
   move(look_back(), 0, 100, 0.5f);
   look_back();
-  EXPECT_TRUE(camera_.since_older_frames(matches_)) << "frames come the nearest in time first";
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_))) << "frames come the nearest in time first";
 }
 
 TEST_F(StandingCameraTest, AFrameFromBeforeTheStandIsNotAsked) {
   add(100, 0.0, 2.0);
   OlderFrame& moved = look_back(test::pose_of(Vector3d::Zero(), {0.01, 0, 0}));
   move(moved, 0, 100, 5.0f);
-  EXPECT_TRUE(camera_.since_older_frames(matches_)) << "nobody to ask";
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_))) << "nobody to ask";
   matches_.sightings.clear();
   move(look_back(), 0, 100, 0.5f);
   move(look_back(test::pose_of({1e-5, 0, 0}, Vector3d::Zero())), 0, 100, 0.0f);
-  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "the older one is not of the stand, however near its pose";
+  EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_)))
+      << "the older one is not of the stand, however near its pose";
 }
 
 // The person and the wall of above, half a second ago.
@@ -211,10 +213,11 @@ TEST_F(StandingCameraTest, AWallBehindAPersonIsEnoughInAnOlderFrameToo) {
   add(20, 0.0, 3.0);
   add(80, 0.0, 0.6);
   move(look_back(), 20, 80, 4.0f);
-  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));
   matches_.sightings.clear();
   move(look_back(), 0, 90, 4.0f);
-  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "all that is left at rest belongs to the person";
+  EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_)))
+      << "all that is left at rest belongs to the person";
 }
 
 TEST_F(StandingCameraTest, ALostSightingSaysNothing) {
@@ -224,10 +227,10 @@ TEST_F(StandingCameraTest, ALostSightingSaysNothing) {
     frame.of_feature[i].dissimilarity = kLost;
     frame.of_feature[i].found = {0, 0};
   }
-  EXPECT_TRUE(camera_.since_older_frames(matches_)) << "the five that were seen are at rest";
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_))) << "the five that were seen are at rest";
   for (std::size_t i = 0; i < 95; ++i) frame.of_feature[i].found = matches_.current.undistorted[i].cast<float>();
   move(frame, 95, 5, 0.5f);
-  EXPECT_FALSE(camera_.since_older_frames(matches_)) << "the five that were seen moved";
+  EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_))) << "the five that were seen moved";
 }
 
 TEST_F(StandingCameraTest, WhatWasHiddenOrOutsideSaysNothing) {
@@ -236,7 +239,7 @@ TEST_F(StandingCameraTest, WhatWasHiddenOrOutsideSaysNothing) {
   move(frame, 0, 95, 5.0f);
   for (std::size_t i = 0; i < 95; ++i)
     frame.of_feature[i].state = i % 2 == 0 ? SightingState::occluded : SightingState::none;
-  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));
 }
 
 // Key points are where the host's texture is, perhaps all on one mover; corners are spread over the picture.
@@ -245,9 +248,9 @@ TEST_F(StandingCameraTest, OlderFramesAreAskedForTheFiltersOwnCornersOnly) {
   matches_.host_count = 95;
   OlderFrame& frame = look_back();
   move(frame, 0, 95, 5.0f);
-  EXPECT_TRUE(camera_.since_older_frames(matches_));
+  EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));
   move(frame, 95, 5, 0.5f);
-  EXPECT_FALSE(camera_.since_older_frames(matches_));
+  EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_)));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "motion_scene.hpp"
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::support_motion_test {
 namespace {
@@ -43,7 +44,7 @@ SupportMotion policy() {
 
 Motion estimate(const Matches& matches, const MotionPrior& prior = {}, const SupportMotion& motion = policy()) {
   Workspace workspace;
-  return motion.estimate(matches, regions_of(matches), test::test_camera(), prior, workspace);
+  return motion.estimate(test::observations_of(matches, regions_of(matches)), test::test_camera(), prior, workspace);
 }
 
 Matches scene_of(const Pose& truth, std::uint64_t seed, double noise_px = 0.0, double mover_share = 0.0,
@@ -132,10 +133,11 @@ TEST(SupportMotion, TrustAndRegionsWeigh) {
     for (std::size_t i = 0; i < 120; ++i) regions.of_feature[i].in_dynamic = true;
     SupportMotion with_regions = policy();
     with_regions.constraints.dynamic_trust = 0.1;
-    const Motion by_region = with_regions.estimate(matches, regions, test::test_camera(), {}, workspace);
+    const Motion by_region =
+        with_regions.estimate(test::observations_of(matches, regions), test::test_camera(), {}, workspace);
     EXPECT_EQ(by_region.status, Status::ok);
     EXPECT_LT(test::translation_error(by_region.current_from_reference, kMotion), 5e-3);
-    for (std::size_t i = 0; i < 120; ++i) matches.trust[i] = 0.1f;
+    for (std::size_t i = 0; i < 120; ++i) matches.space_trust[i] = 0.1f;
     const Motion by_trust = estimate(matches);
     EXPECT_EQ(by_trust.status, Status::ok);
     EXPECT_LT(test::translation_error(by_trust.current_from_reference, kMotion), 5e-3);
@@ -151,7 +153,7 @@ TEST(SupportMotion, SaysWhyThereIsNone) {
   EXPECT_FALSE(estimate(few).usable());
 
   Matches flat = scene_of(kMotion, 2);
-  for (Observations* side : {&flat.current, &flat.reference})
+  for (FrameFeatures* side : {&flat.current, &flat.reference})
     for (std::size_t i = 0; i < flat.size(); ++i) side->set_depth(i, 0.0, 0.0, test::test_camera());
   EXPECT_EQ(estimate(flat).status, Status::no_depth);
 
@@ -229,7 +231,7 @@ TEST(SupportMotion, TheMeasuredNoiseIsHeldWithinLimits) {
 TEST(SupportMotion, TheNoiseIsOfWhatIsTrusted) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Matches matches = scene_of(kMotion, seed, 0.3 / std::sqrt(2.0), 0.6, test::pose_of(Vector3d::Zero(), {0.06, 0, 0}));
-    for (std::size_t i = 0; i < 120; ++i) matches.trust[i] = 0.1f;
+    for (std::size_t i = 0; i < 120; ++i) matches.space_trust[i] = 0.1f;
     EXPECT_NEAR(estimate(matches, MotionPrior{kMotion}).pixel_sigma, 0.3, 0.3 * 0.3)
         << "80 matches are left: four times 8 %";
   }
@@ -274,7 +276,8 @@ TEST(SupportMotion, ACreepIsAMotion) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Pose creep = test::pose_of({0, kCreep_rad, 0}, Vector3d::Zero());
     const Matches matches = scene_of(creep, seed, 0.02 / std::sqrt(2.0));
-    ASSERT_TRUE(policy().standing.since_last_frame(matches, false)) << "each corner by itself is at rest";
+    ASSERT_TRUE(policy().standing.since_last_frame(test::observations_of(matches), false))
+        << "each corner by itself is at rest";
     const Motion motion = estimate(matches, kStood);
     EXPECT_EQ(motion.status, Status::ok);
     EXPECT_FALSE(motion.standing);
@@ -294,7 +297,7 @@ Matches person_before_a_wall(std::uint64_t seed) {
     const double depth_m = is_person ? random.uniform(0.5, 0.7) : random.uniform(2.0, 4.0);
     matches.reference.undistorted[i] = {random.uniform(20, 620), random.uniform(20, 460)};
     matches.current.undistorted[i] = matches.reference.undistorted[i] + Vector2d(is_person ? 2.0 : 0.0, 0.0);
-    for (Observations* side : {&matches.reference, &matches.current}) side->set_depth(i, depth_m, 0.002, camera);
+    for (FrameFeatures* side : {&matches.reference, &matches.current}) side->set_depth(i, depth_m, 0.002, camera);
     matches.state[i] = MatchState::matched;
   }
   return matches;
@@ -418,7 +421,9 @@ struct LookedBack {
 
   void refine(const MotionPrior& prior = {}) {
     Workspace workspace;
-    policy().refine(matches, regions_of(matches), test::test_camera(), prior, motion, workspace);
+    Observations observations = test::observations_of(matches, regions_of(matches));
+    policy().refine(observations, test::test_camera(), prior, motion, workspace);
+    matches = observations.matches;
   }
 };
 
@@ -471,10 +476,10 @@ TEST(SupportMotion, TooFewSightingsLeaveTheMotionAsItIs) {
     for (Sighting& sighting : frame.of_feature) sighting.dissimilarity = 1.5f;
   unlike.refine();
   EXPECT_TRUE(unlike.motion.current_from_reference.isApprox(before, 0.0)) << "what looks different is not support";
-  Matches none;
+  Observations none;
   Motion motion;
   Workspace workspace;
-  policy().refine(none, regions_of(none), test::test_camera(), MotionPrior{}, motion, workspace);
+  policy().refine(none, test::test_camera(), MotionPrior{}, motion, workspace);
   EXPECT_TRUE(motion.current_from_reference.isApprox(Pose::Identity(), 0.0));
 }
 
@@ -505,7 +510,9 @@ struct StoodBack {
 
   void refine() {
     Workspace workspace;
-    policy().refine(matches, regions_of(matches), test::test_camera(), MotionPrior{}, motion, workspace);
+    Observations observations = test::observations_of(matches, regions_of(matches));
+    policy().refine(observations, test::test_camera(), MotionPrior{}, motion, workspace);
+    matches = observations.matches;
   }
 };
 

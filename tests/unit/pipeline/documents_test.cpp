@@ -21,11 +21,11 @@ namespace {
 
 struct StandingCamera {
   template <class Camera>
-  stillpoint::Motion estimate(const stillpoint::Matches& matches, const stillpoint::Regions&, const Camera&,
+  stillpoint::Motion estimate(const stillpoint::Observations& observations, const Camera&,
                               const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
     stillpoint::Motion motion;  // the identity, without any doubt
     motion.status = stillpoint::Status::ok;
-    motion.candidates = motion.inliers = static_cast<int>(matches.size());
+    motion.candidates = motion.inliers = static_cast<int>(observations.size());
     return motion;
   }
 };

@@ -246,10 +246,10 @@ struct ObservingPrior : mock::Prior {
   Status status = Status::first_frame;
 
   template <class Camera>
-  void observe(const Matches& matches, const Motion& motion, const Camera&) {
+  void observe(const Observations& observations, const Motion& motion, const Camera&) {
     note("prior.observe");
-    features = matches.size();
-    depth_m = matches.current.depth_m[0];
+    features = observations.size();
+    depth_m = observations.matches.current.depth_m[0];
     camera_x_m = motion.current_from_reference.translation().x();
     status = motion.status;
   }

@@ -77,12 +77,12 @@ struct EgoMotion : Stage {
 
   EgoMotion() { answer.status = Status::ok; }
   template <class Camera>
-  Motion estimate(const Matches& matches, const Regions& regions, const Camera&, const MotionPrior& prior, Workspace&) {
+  Motion estimate(const Observations& observations, const Camera&, const MotionPrior& prior, Workspace&) {
     note("motion");
     asked = prior;
-    features = matches.size();
-    memberships = regions.of_feature;
-    depth_m = matches.current.depth_m;
+    features = observations.size();
+    memberships = observations.regions.of_feature;
+    depth_m = observations.matches.current.depth_m;
     return answer;
   }
 };
@@ -90,9 +90,9 @@ struct EgoMotion : Stage {
 /// The score of feature i is i.
 struct Scorer : Stage {
   template <class Camera>
-  void score(const Matches& matches, const Motion&, const Camera&, span<FeatureScore> scores) const {
+  void score(const Observations& observations, const Motion&, const Camera&, span<FeatureScore> scores) const {
     note("score");
-    for (std::size_t i = 0; i < matches.size(); ++i) scores[i].value = static_cast<float>(i);
+    for (std::size_t i = 0; i < observations.size(); ++i) scores[i].value = static_cast<float>(i);
   }
 };
 
@@ -106,23 +106,20 @@ struct Gate : Stage {
 
 /// Drops every feature whose score is odd, and notes the threshold in its probability.
 struct Classifier : Stage {
-  void classify(const Matches&, span<const FeatureScore> scores, const Threshold& threshold, const Regions&,
-                span<Label> labels, Workspace&) const {
+  void classify(const Observations&, const Evidence& evidence, span<Label> labels, Workspace&) const {
     note("classify");
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      labels[i].keep = static_cast<int>(scores[i].value) % 2 == 0;
+      labels[i].keep = static_cast<int>(evidence.scores[i].value) % 2 == 0;
       labels[i].verdict = labels[i].keep ? Verdict::kept : Verdict::dynamic;
       labels[i].reason = labels[i].keep ? Reason::static_cluster : Reason::moving_cluster;
       labels[i].cluster = static_cast<std::int32_t>(i);
-      labels[i].probability = static_cast<float>(threshold.level);
+      labels[i].probability = static_cast<float>(evidence.threshold.level);
     }
   }
 };
 
 struct Memory : Stage {
-  void update(const Matches&, const Motion&, span<const FeatureScore>, span<Label>, Workspace&) const {
-    note("memory");
-  }
+  void update(const Observations&, const Motion&, const Evidence&, span<Label>, Workspace&) const { note("memory"); }
   void reset() { note("memory.reset"); }
 };
 

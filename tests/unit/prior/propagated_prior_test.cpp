@@ -16,6 +16,7 @@
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint {
 namespace {
@@ -60,7 +61,7 @@ class PropagatedPriorTest : public testing::Test {
     motion.status = change.is_motion_known ? Status::ok : Status::no_consensus;
     motion.reference_timestamp_s = time_s(frame_ - 1);
     motion.current_from_reference.translation().x() = change.camera_x_m;
-    prior_.observe(change.has_features ? features(change) : Matches(), motion, camera_);
+    prior_.observe(test::observations_of(change.has_features ? features(change) : Matches()), motion, camera_);
     return regions;
   }
   Regions next() { return next(Change{}); }
@@ -471,7 +472,7 @@ TEST_F(PropagatedPriorTest, WithoutDepthTheFeaturesInTheBoxCarryIt) {
     prior_.regions(FrameView(gray, DepthView(), 0.1 * f), regions);
     Matches matches = features({{3, 0}, {3, 0}});
     for (double& depth_m : matches.current.depth_m) depth_m = 0;
-    prior_.observe(matches, motion, camera_);
+    prior_.observe(test::observations_of(matches), motion, camera_);
     if (f > 0) box.x += 3;
     expect_box(only_thing().detection.box, box);
     EXPECT_FALSE(only_thing().has_depth_range());

@@ -11,6 +11,7 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::offset_score_test {
 namespace {
@@ -38,7 +39,7 @@ Matches one_feature(const Vector2d& before, double before_m, const Vector2d& now
 
 float score_of(const Matches& matches, const Motion& motion) {
   std::vector<FeatureScore> scores(matches.size());
-  OffsetScore{}.score(matches, motion, kCamera, span<FeatureScore>(scores));
+  OffsetScore{}.score(test::observations_of(matches), motion, kCamera, span<FeatureScore>(scores));
   return scores[0].value;
 }
 

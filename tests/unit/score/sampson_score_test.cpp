@@ -13,6 +13,7 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint {
 namespace {
@@ -35,12 +36,12 @@ class SampsonScoreTest : public testing::Test {
     matches.state[i] = MatchState::matched;
     matches.reference.undistorted[i] = from;
     matches.current.undistorted[i] = from + step;
-    matches.trust[i] = trust;
+    matches.space_trust[i] = trust;
     return i;
   }
   float score_of(std::size_t i) {
     std::vector<FeatureScore> scores(matches.size());
-    scorer.score(matches, motion, camera, scores);
+    scorer.score(test::observations_of(matches), motion, camera, scores);
     return scores[i].value;
   }
 
@@ -113,7 +114,7 @@ TEST_F(SampsonScoreTest, NoiseIsMeasured) {
     add({random.uniform(50, 550), random.uniform(50, 400)},
         {10.0 + random.gaussian(), std::sqrt(2.0) * 0.7 * random.gaussian()});
   std::vector<FeatureScore> scores(matches.size());
-  scorer.score(matches, motion, camera, scores);
+  scorer.score(test::observations_of(matches), motion, camera, scores);
   double sum = 0;
   for (std::size_t i = 30; i < scores.size(); ++i) sum += static_cast<double>(scores[i].value);
   EXPECT_NEAR(sum / 3000, 0.0, 0.05);

@@ -13,6 +13,7 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/policy_traits.hpp"
+#include "unit/observations_of.hpp"
 
 namespace stillpoint::sighting_score_test {
 namespace {
@@ -53,7 +54,7 @@ class SightingScoreTest : public testing::Test {
 
   float score() {
     std::vector<FeatureScore> scores(1);
-    scorer_.score(matches_, motion_, camera_, scores);
+    scorer_.score(test::observations_of(matches_), motion_, camera_, scores);
     return scores[0].value;
   }
 

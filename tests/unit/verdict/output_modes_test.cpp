@@ -23,9 +23,8 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 /// A classifier that gives each feature what the test says.
 struct ToldClassifier {
   std::vector<Label> told;
-  void classify(const Matches& matches, span<const FeatureScore>, const Threshold&, const Regions&, span<Label> labels,
-                Workspace&) const {
-    for (std::size_t i = 0; i < matches.size(); ++i) labels[i] = told[i];
+  void classify(const Observations& observations, const Evidence&, span<Label> labels, Workspace&) const {
+    for (std::size_t i = 0; i < observations.size(); ++i) labels[i] = told[i];
   }
 };
 struct ToldPolicies : mock::Policies {

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// All that is observed of a frame before it is judged, and the evidence that scores and threshold make of it.
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+/// What was known of features and surfaces before this frame. Parallel to `Matches` and to its surface cells.
+struct Remembered {
+  std::vector<float> trust;          ///< 0 to 1: how much a feature may say of the camera's motion
+  std::vector<float> log_odds;       ///< that it moves, from earlier frames; 0 where nothing is remembered, nats
+  std::vector<float> surface_trust;  ///< 0 to 1: how much a surface cell may say of the camera's motion
+
+  /// Nothing is remembered: the trust is what the space of the past seconds says.
+  void begin(const Matches& matches) {
+    trust = matches.space_trust;
+    log_odds.assign(matches.size(), 0.0f);
+    surface_trust.resize(matches.sightings.surfaces.size());
+    std::transform(matches.sightings.surfaces.begin(), matches.sightings.surfaces.end(), surface_trust.begin(),
+                   [](const SurfaceCell& cell) { return cell.space_trust; });
+  }
+};
+
+/// Where each feature was, where something may move, and what is remembered. Motion, scorer, classifier and memory read
+/// it; each part is written by one stage.
+struct Observations {
+  Matches matches;        ///< by the matcher
+  Regions regions;        ///< by the prior
+  Remembered remembered;  ///< by the memory
+
+  std::size_t size() const noexcept { return matches.size(); }
+};
+
+/// How badly each feature disagrees with the camera's motion, and from where on that is more than noise.
+struct Evidence {
+  span<const FeatureScore> scores;  ///< by the scorer, one a feature
+  Threshold threshold;              ///< by the gate
+};
+
+}  // namespace stillpoint
