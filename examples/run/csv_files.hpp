@@ -66,11 +66,12 @@ class FeaturesFile {
   std::string text_;
 };
 
-/// One row a frame, with the motion that its verdicts assumed: current_from_reference, `nan` where there was none.
+/// One row a frame, with the motion that its verdicts assumed: current_from_reference, `nan` where there was none;
+/// warnings have `|` between them.
 class FramesFile {
  public:
   explicit FramesFile(const std::filesystem::path& file) : file_(file) {
-    file_.write("timestamp,status,reference_timestamp,tx,ty,tz,qx,qy,qz,qw,features,kept,keep_floor_kept\n");
+    file_.write("timestamp,status,reference_timestamp,tx,ty,tz,qx,qy,qz,qw,features,kept,keep_floor_kept,warnings\n");
   }
 
   void write(const FrameSummary& frame) {
@@ -88,7 +89,14 @@ class FramesFile {
       row += ",nan,nan,nan,nan,nan,nan,nan,nan";
     }
     row += ',' + std::to_string(frame.features) + ',' + std::to_string(frame.kept) + ',' +
-           std::to_string(frame.keep_floor_kept) + '\n';
+           std::to_string(frame.keep_floor_kept) + ',';
+    bool is_first = true;
+    frame.warnings.for_each([&](stillpoint::Warning warning) {
+      row += is_first ? "" : "|";
+      row += to_string(warning);
+      is_first = false;
+    });
+    row += '\n';
     file_.write(row);
   }
 

@@ -37,6 +37,8 @@ struct FeatureRow {
 struct FrameSummary {
   double timestamp_s = 0.0;
   stillpoint::Status status = stillpoint::Status::ok;
+  stillpoint::Warnings warnings;
+  const char* hint = "";  ///< what is probably wrong with the input
   stillpoint::Motion motion;
   stillpoint::Timings timings;
   double extract_ms = 0.0, track_ms = 0.0;
@@ -119,6 +121,8 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   detail::locate(record);
   FrameSummary& summary = record.summary;
   summary.status = result.status();
+  summary.warnings = result.warnings();
+  summary.hint = result.hint();
   summary.motion = result.motion();
   summary.timings = result.timings();
   summary.keep_floor_kept = result.keep_floor_kept();

@@ -76,6 +76,8 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
   for (const auto& [name, value] : settings(options)) arguments[name] = value;
   nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
   for (const auto& [status, frames] : figures.statuses) statuses[status] = frames;
+  nlohmann::ordered_json warnings = nlohmann::ordered_json::object();
+  for (const auto& [warning, frames] : figures.warnings) warnings[warning] = frames;
   nlohmann::ordered_json times = nlohmann::ordered_json::object();
   for (const StageTime& stage : figures.times) {
     const auto value = [&stage](double Spread::*member) {
@@ -96,6 +98,7 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
       {"features_per_frame", detail::or_null(figures.features_per_frame)},
       {"kept_share", detail::or_null(figures.kept_share)},
       {"statuses", statuses},
+      {"warnings", warnings},
       {"timing_ms", times},
       {"ate_rmse_m", detail::or_null(figures.filtered.ate_rmse_m)},
       {"ate_rmse_unfiltered_m", detail::or_null(figures.unfiltered.ate_rmse_m)},

@@ -4,8 +4,10 @@
 
 // What a run found, in plain words: for standard output and the top of the report.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +76,17 @@ inline std::string detector_words(const Options& options, const DetectorRecord& 
   return words + '.';
 }
 
+/// What is probably wrong with the input, as a twentieth of the frames says at least; else empty.
+inline std::string commonest_hint(const RunRecord& run) {
+  std::map<std::string, std::size_t> frames;
+  for (const FrameSummary& frame : run.frames)
+    if (*frame.hint != '\0') ++frames[frame.hint];
+  const auto commonest =
+      std::max_element(frames.begin(), frames.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const bool is_common = commonest != frames.end() && 20 * commonest->second >= run.frames.size();
+  return is_common ? commonest->first : std::string();
+}
+
 inline std::size_t unjudged_frames(const RunRecord& run) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < run.frames.size(); ++i)
@@ -118,6 +131,7 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
                      (run.has_depth || options.policies == "monocular"
                           ? "."
                           : ": they have no depth, which --policies " + options.policies + " needs."));
+  if (const std::string hint = detail::commonest_hint(run); !hint.empty()) result.push_back("Hint: " + hint);
   if (figures.filtered.frames_without_pose.value_or(0) > 0)
     result.push_back(count_words(*figures.filtered.frames_without_pose, "frame") + " got no pose with the filter, " +
                      std::to_string(figures.unfiltered.frames_without_pose.value_or(0)) + " without it.");

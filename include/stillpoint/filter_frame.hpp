@@ -18,6 +18,7 @@
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/core/use_check.hpp"
 
 namespace stillpoint {
 
@@ -62,21 +63,28 @@ class FrameFilter : private PolicyContract<Policies> {
   const FrameResult& filter_frame(const FrameView& host_frame, const Keypoints& keypoints) {
     result_.begin(read_pixels(keypoints, pixels_), camera.width(), camera.height());
     Status& status = result_.status_ = frame_check(host_frame, expectation_.last_timestamp_s(), camera);
+    FrameView frame = host_frame;
     if (!FrameCheck::rejects(status)) {
       mask_prediction.forget();
       if (status != Status::ok) reset();
-      const FrameView frame = with_gray(host_frame, gray_);
+      frame = with_gray(host_frame, gray_);
       if (status == Status::ok) status = pixels_.empty() ? Status::no_keypoints : judge(frame);
       history_.push(frame, result_.motion_);
       expectation_.advance(frame.timestamp_s, result_.motion_);
     }
     if (!judged(status)) result_.motion_.status = status;
+    use_check_.observe(status, frame, pixels_, result_.depth_m_, result_.motion_);
+    result_.warnings_.add(use_check_.warnings());
+    result_.hint_ = UseCheck::hint(status, result_.warnings_);
     return result_;
   }
 
   /// The host's own pose of the frame that was filtered last, after its tracking. Those of two frames in a row predict
   /// the next motion. A pose that is not finite is none.
-  void feedback(const Pose& world_from_camera) { expectation_.feedback(world_from_camera); }
+  void feedback(const Pose& world_from_camera) {
+    expectation_.feedback(world_from_camera);
+    use_check_.compare(world_from_camera, result_.motion_);
+  }
 
   /// What an IMU or wheels say of the coming motion; holds for the next frame. A pose that is not finite is none.
   void expect_motion(const Pose& current_from_reference) { expectation_.expect(current_from_reference); }
@@ -157,11 +165,14 @@ class FrameFilter : private PolicyContract<Policies> {
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches.current.depth_m);
     });
-    return result_.keep_floor_kept() > 0 ? Status::keep_floor : motion.status;
+    result_.warnings_ = motion.warnings;
+    if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
+    return motion.status;
   }
 
   FrameHistory history_;
   MotionExpectation expectation_;
+  UseCheck use_check_;
   ImageBuffer gray_;
   std::vector<Vector2f> pixels_;
   Observations observations_;

@@ -17,11 +17,27 @@ namespace stillpoint {
 /// A depth image and how to read it. Metres; 0 or non-finite means no depth.
 struct DepthView {
   ImageView image;
-  double factor = 5000.0;  ///< units of a 16-bit image per metre (TUM: 5000); not used for float images
+  /// Units of a 16-bit image per metre; 0: nobody said, and a frame with a 16-bit image is `depth_unit_missing`. Not
+  /// used for float images.
+  double factor = 0.0;
 
   DepthView() = default;
+
+  /// Of a float image in metres; of a 16-bit one with what `units_per_metre` says.
   template <class Image, class = decltype(ImageView(std::declval<const Image&>()))>
-  DepthView(const Image& depth, double units_per_metre = 5000.0) : image(depth), factor(units_per_metre) {}
+  DepthView(const Image& depth, double units_per_metre = 0.0) : image(depth), factor(units_per_metre) {}
+
+  /// 16 bit in millimetres: ROS, RealSense, Azure Kinect, OAK, Orbbec.
+  template <class Image>
+  static DepthView millimetres(const Image& depth) {
+    return DepthView(depth, 1000.0);
+  }
+
+  /// 16 bit in the unit of the TUM and Bonn benchmarks, a fifth of a millimetre.
+  template <class Image>
+  static DepthView tum(const Image& depth) {
+    return DepthView(depth, 5000.0);
+  }
 
   bool empty() const noexcept { return image.empty(); }
 
@@ -46,7 +62,8 @@ struct FrameView {
   FrameView() = default;
 
   /// @param image    gray or BGR, 8 bit
-  /// @param depth_view  16 bit with a factor, or float metres; an empty image where there is none
+  /// @param depth_view  float metres, or 16 bit with its unit (`DepthView::millimetres`); an empty image where there is
+  /// none
   /// @param timestamp seconds
   template <class Image, class = decltype(ImageView(std::declval<const Image&>()))>
   FrameView(const Image& image, const DepthView& depth_view, double timestamp)

@@ -28,14 +28,16 @@ struct FrameCheck {
     if (!frame.gray.empty() && frame.gray.format != PixelFormat::gray8) return Status::unsupported_image;
     if (!frame.colour.empty() && frame.colour.format != PixelFormat::bgr8) return Status::unsupported_image;
     const PixelFormat depth = frame.depth.image.format;
-    const bool depth_readable =
-        depth == PixelFormat::depth32f || (depth == PixelFormat::depth16 && frame.depth.factor > 0);
-    if (!frame.depth.empty() && !depth_readable) return Status::unsupported_image;
+    const bool is_raw = depth == PixelFormat::depth16;
+    if (!frame.depth.empty() && !is_raw && depth != PixelFormat::depth32f) return Status::unsupported_image;
+    if (!frame.depth.empty() && is_raw && !(frame.depth.factor >= kCoarsest && frame.depth.factor <= kFinest))
+      return Status::depth_unit_missing;
     const auto other_size = [&camera](const ImageView& view) {
       return !view.empty() && (view.width != camera.width() || view.height != camera.height());
     };
     if (other_size(frame.gray) || other_size(frame.colour)) return Status::size_changed;
-    if (!std::isfinite(frame.timestamp_s)) return Status::invalid_time;
+    if (!(std::abs(frame.timestamp_s) < kLatest_s)) return Status::invalid_time;
+    if (half_beyond_a_kilometre(frame.depth)) return Status::implausible_depth;
     if (!last_timestamp_s) return Status::first_frame;
     if (frame.timestamp_s == *last_timestamp_s) return Status::duplicate_frame;
     if (frame.timestamp_s < *last_timestamp_s) return Status::out_of_order;
@@ -45,8 +47,30 @@ struct FrameCheck {
 
   /// Such a frame is no frame: it leaves the filter as it was.
   static constexpr bool rejects(Status status) noexcept {
-    return status == Status::no_image || status == Status::unsupported_image || status == Status::size_changed ||
-           status == Status::invalid_time || status == Status::duplicate_frame;
+    return status == Status::no_image || status == Status::unsupported_image || status == Status::depth_unit_missing ||
+           status == Status::implausible_depth || status == Status::size_changed || status == Status::invalid_time ||
+           status == Status::duplicate_frame;
+  }
+
+ private:
+  static constexpr double kCoarsest = 1e-3, kFinest = 1e6;  // units of 16-bit depth per metre: kilometres, micrometres
+  static constexpr double kLatest_s = 1e11;  // the year 5138; nanoseconds since 1970 are 10 million times that
+
+  /// Looks at some hundred pixels.
+  static bool half_beyond_a_kilometre(const DepthView& depth) noexcept {
+    constexpr int kSamples = 16;  // a side
+    constexpr float kFarthest_m = 1000.0f;
+    int known = 0, beyond = 0;
+    if (depth.empty()) return false;
+    for (int row = 0; row < kSamples; ++row) {
+      for (int column = 0; column < kSamples; ++column) {
+        const float depth_m = depth.metres((2 * column + 1) * depth.image.width / (2 * kSamples),
+                                           (2 * row + 1) * depth.image.height / (2 * kSamples));
+        known += depth_m > 0;
+        beyond += depth_m > kFarthest_m;
+      }
+    }
+    return 2 * beyond > known;
   }
 };
 

@@ -32,6 +32,11 @@ class FrameResult {
   double depth_m(std::size_t i) const noexcept { return depth_m_[i]; }  ///< 0 where there is none
 
   Status status() const noexcept { return status_; }
+  /// Of a frame that was judged: what is worth knowing beside its status.
+  Warnings warnings() const noexcept { return warnings_; }
+  /// What is probably wrong with the way the filter is used, one English sentence; empty where nothing is. Lives as
+  /// long as the program.
+  const char* hint() const noexcept { return hint_; }
   /// The motion that the verdicts assumed: current_from_reference.
   const Motion& motion() const noexcept { return motion_; }
   const Timings& timings() const noexcept { return timings_; }
@@ -62,6 +67,8 @@ class FrameResult {
     kept_count_ = pixels.size();
     keep_floor_kept_ = 0;
     status_ = Status::ok;
+    warnings_ = Warnings();
+    hint_ = "";
     motion_ = Motion{};
     timings_ = Timings{};
   }
@@ -88,6 +95,8 @@ class FrameResult {
   std::size_t keep_floor_kept_ = 0;
   int width_ = 0, height_ = 0;
   Status status_ = Status::first_frame;
+  Warnings warnings_;
+  const char* hint_ = "";
   Motion motion_;
   Timings timings_;
 };

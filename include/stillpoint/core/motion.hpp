@@ -9,12 +9,14 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/status.hpp"
+#include "stillpoint/core/warnings.hpp"
 
 namespace stillpoint {
 
 /// The answer of an ego-motion policy.
 struct Motion {
   Status status = Status::first_frame;
+  Warnings warnings;                               ///< rotation_only, consensus_inverted
   Pose current_from_reference = Pose::Identity();  ///< metres
   /// Of a small rotation (radians, first three) and translation (metres, last three) applied after the pose, in the
   /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v. As if corners were wrong independently of each

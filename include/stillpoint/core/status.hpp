@@ -4,18 +4,22 @@
 
 // What can be said of a frame as a whole.
 
+#include <cstddef>
 #include <cstdint>
 
 namespace stillpoint {
 
-/// Every status but `ok` and the three warnings means: this frame was not judged, all features are kept (fail open).
+/// Every status but `ok` means: this frame was not judged, all features are kept (fail open).
 enum class Status : std::uint8_t {
   ok,
   first_frame,          ///< nothing to compare with yet: after construction or `reset()`
   no_image,             ///< empty image; the filter's state is untouched
   unsupported_image,    ///< not 8-bit gray or BGR, or depth neither 16 bit nor float; state untouched
+  depth_unit_missing,   ///< 16-bit depth of which nobody says what a metre is (`DepthView::millimetres`); state
+                        ///< untouched
+  implausible_depth,    ///< half of the depths lie beyond a kilometre: millimetres taken for metres? State untouched
   size_changed,         ///< the image is not of the camera's size; state untouched
-  invalid_time,         ///< the time stamp is not finite; state untouched
+  invalid_time,         ///< the time stamp is not finite, or beyond any date in seconds (nanoseconds?); state untouched
   duplicate_frame,      ///< same time stamp as the last frame; state untouched
   out_of_order,         ///< time runs backwards: everything is forgotten, this frame is the new reference
   time_gap,             ///< too long since the last frame: everything is forgotten, this frame is the new reference
@@ -24,16 +28,12 @@ enum class Status : std::uint8_t {
   too_few_matches,      ///< fewer matches than the ego-motion needs
   degenerate_geometry,  ///< the matches do not determine a motion (one point, one line, one plane for F)
   no_consensus,         ///< no motion explains enough of the matches
-  rotation_only,        ///< warning: the camera turned without moving (or stood still); motion has no direction
-  consensus_inverted,   ///< warning: another rigid motion explains more; the one that agrees with the past was taken
-  keep_floor,           ///< warning: so much was dynamic that the keep-floor acted
 };
 
+constexpr std::size_t kStatusCount = static_cast<std::size_t>(Status::no_consensus) + 1;
+
 /// True where the frame was judged: verdicts are verdicts, not the fail-open default.
-constexpr bool judged(Status status) noexcept {
-  return status == Status::ok || status == Status::rotation_only || status == Status::consensus_inverted ||
-         status == Status::keep_floor;
-}
+constexpr bool judged(Status status) noexcept { return status == Status::ok; }
 
 /// The status as it is written in files.
 constexpr const char* to_string(Status status) noexcept {
@@ -42,6 +42,8 @@ constexpr const char* to_string(Status status) noexcept {
     case Status::first_frame: return "first_frame";
     case Status::no_image: return "no_image";
     case Status::unsupported_image: return "unsupported_image";
+    case Status::depth_unit_missing: return "depth_unit_missing";
+    case Status::implausible_depth: return "implausible_depth";
     case Status::size_changed: return "size_changed";
     case Status::invalid_time: return "invalid_time";
     case Status::duplicate_frame: return "duplicate_frame";
@@ -52,9 +54,6 @@ constexpr const char* to_string(Status status) noexcept {
     case Status::too_few_matches: return "too_few_matches";
     case Status::degenerate_geometry: return "degenerate_geometry";
     case Status::no_consensus: return "no_consensus";
-    case Status::rotation_only: return "rotation_only";
-    case Status::consensus_inverted: return "consensus_inverted";
-    case Status::keep_floor: return "keep_floor";
   }
   return "?";
 }

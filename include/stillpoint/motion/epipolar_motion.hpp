@@ -181,7 +181,8 @@ class EpipolarMotion {
   void conclude_rotation(const Matches& matches, Pairs pairs, const RansacReport<Matrix3d>& rotation,
                          const Camera& camera, Motion& motion) const {
     pairs.keep(rotation.inlier);
-    motion.status = Status::rotation_only;
+    motion.status = Status::ok;
+    motion.warnings = Warning::rotation_only;
     motion.inliers = static_cast<int>(rotation.inliers);
     motion.current_from_reference.linear() = rotation.model;
     PixelInformation<Camera> information(motion.current_from_reference, camera);

@@ -49,7 +49,7 @@ class SupportMotion {
   double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
   bool measures_noise = true;     ///< of pixels and depths in each frame; false: it is as assumed
 
-  /// @return status ok, consensus_inverted, no_depth, too_few_matches or no_consensus.
+  /// @return status ok (perhaps with the warning consensus_inverted), no_depth, too_few_matches or no_consensus.
   template <class Camera>
   Motion estimate(const Observations& observations, const Camera& camera, const MotionPrior& prior,
                   Workspace& workspace) const {
@@ -91,7 +91,8 @@ class SupportMotion {
     const bool explained =
         problem.point_support(chosen.reference_from_current) > kLeastSupport * problem.total_weight();
     if (!explained || !any_depth(matches)) return motion;
-    motion.status = inverted ? Status::consensus_inverted : Status::ok;
+    motion.status = Status::ok;
+    if (inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
     motion.current_from_reference = orthonormalized(chosen.reference_from_current.inverse());
     Matrix6d information = chosen.information;

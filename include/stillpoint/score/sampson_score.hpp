@@ -74,7 +74,7 @@ class SampsonScore {
           direction_(motion.current_from_reference.translation()),
           covariance_(motion.covariance) {
       const double length = direction_.norm();
-      has_lines_ = motion.status != Status::rotation_only && length > 0;
+      has_lines_ = !motion.warnings.has(Warning::rotation_only) && length > 0;
       if (has_lines_) direction_ /= length;
     }
 

@@ -26,22 +26,22 @@ TEST(DepthView, SixteenBitIsScaledByItsFactor) {
   cv::Mat depth(1, 3, CV_16UC1, cv::Scalar(0));
   depth.at<std::uint16_t>(0, 1) = 7500;
   depth.at<std::uint16_t>(0, 2) = 65535;
-  EXPECT_EQ(DepthView(depth).metres(1, 0), 1.5f);          // TUM: 5000 a metre
+  EXPECT_EQ(DepthView::tum(depth).metres(1, 0), 1.5f);     // TUM: 5000 a metre
   EXPECT_EQ(DepthView(depth, 1000.0).metres(1, 0), 7.5f);  // millimetres
-  EXPECT_EQ(DepthView(depth).metres(0, 0), 0.0f);
-  EXPECT_FLOAT_EQ(DepthView(depth).metres(2, 0), 13.107f);
+  EXPECT_EQ(DepthView::tum(depth).metres(0, 0), 0.0f);
+  EXPECT_FLOAT_EQ(DepthView::tum(depth).metres(2, 0), 13.107f);
 }
 
 TEST(DepthView, FloatIsMetresAndWhateverIsNoDepthIsZero) {
   cv::Mat depth = (cv::Mat_<float>(1, 6) << 2.25f, 0.0f, -1.0f, kNaN, kInfinity, -kInfinity);
   EXPECT_EQ(DepthView(depth, 1000.0).metres(0, 0), 2.25f) << "the factor is for 16 bit only";
-  for (int u = 1; u < 6; ++u) EXPECT_EQ(DepthView(depth).metres(u, 0), 0.0f) << u;
+  for (int u = 1; u < 6; ++u) EXPECT_EQ(DepthView::tum(depth).metres(u, 0), 0.0f) << u;
 }
 
 TEST(DepthView, ReadsAPartOfAnImage) {
   cv::Mat depth(4, 6, CV_16UC1, cv::Scalar(0));
   depth.at<std::uint16_t>(2, 3) = 5000;
-  EXPECT_EQ(DepthView(depth(cv::Rect(2, 1, 3, 3))).metres(1, 1), 1.0f);
+  EXPECT_EQ(DepthView::tum(depth(cv::Rect(2, 1, 3, 3))).metres(1, 1), 1.0f);
 }
 
 TEST(DepthScale, KeepsTheFieldOfViewNotThePixelOrigin) {
@@ -56,7 +56,7 @@ TEST(DepthScale, KeepsTheFieldOfViewNotThePixelOrigin) {
 
 TEST(RoundedDepth, ReadsTheNearestPixel) {
   const cv::Mat depth = (cv::Mat_<float>(2, 3) << 1, 2, 3, 4, 5, 6);
-  const DepthView view(depth);
+  const DepthView view = DepthView::tum(depth);
   const RoundedDepth lookup;
   EXPECT_EQ(lookup.at(view, {0.0f, 0.0f}), 1.0);
   EXPECT_EQ(lookup.at(view, {0.49f, 0.0f}), 1.0);
@@ -68,7 +68,7 @@ TEST(RoundedDepth, ReadsTheNearestPixel) {
 
 TEST(RoundedDepth, IsZeroOutsideAndForWhatIsNoPixel) {
   const cv::Mat depth(2, 3, CV_32FC1, cv::Scalar(1.0));
-  const DepthView view(depth);
+  const DepthView view = DepthView::tum(depth);
   const RoundedDepth lookup;
   // 2³² and 1e30 are beyond what an int or a long holds: they must not wrap around to column 0.
   for (const float bad :
@@ -88,7 +88,7 @@ TEST(Lift, FillsTheObservationsOfAFrame) {
   const cv::Mat gray(8, 10, CV_8UC1, cv::Scalar(0));
   cv::Mat depth(4, 5, CV_16UC1, cv::Scalar(0));  // half the image's resolution
   depth.at<std::uint16_t>(1, 3) = 10000;         // 2 m
-  const FrameView frame(gray, DepthView(depth), 0.0);
+  const FrameView frame(gray, DepthView::tum(depth), 0.0);
 
   FrameFeatures observations;
   observations.resize(4);

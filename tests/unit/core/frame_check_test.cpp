@@ -35,25 +35,38 @@ class FrameCheckTest : public testing::Test {
 TEST_F(FrameCheckTest, TakesGrayAndColourWithAnyDepth) {
   const cv::Mat float_depth(3, 4, CV_32FC1);
   for (const cv::Mat& image : {gray_, colour_}) {
-    EXPECT_EQ(check(image, DepthView(depth_)), Status::ok);
-    EXPECT_EQ(check(image, DepthView(float_depth)), Status::ok) << "another size is fine";
+    EXPECT_EQ(check(image, DepthView::tum(depth_)), Status::ok);
+    EXPECT_EQ(check(image, DepthView::tum(float_depth)), Status::ok) << "another size is fine";
     EXPECT_EQ(check(image, DepthView()), Status::ok);
   }
 }
 
 TEST_F(FrameCheckTest, NamesImagesItCannotRead) {
-  EXPECT_EQ(check(cv::Mat(), DepthView(depth_)), Status::no_image);
+  EXPECT_EQ(check(cv::Mat(), DepthView::tum(depth_)), Status::no_image);
   EXPECT_EQ(check(FrameView()), Status::no_image);
   for (const int type : {CV_16SC3, CV_32FC1, CV_16UC1, CV_8UC4, CV_8SC1})
-    EXPECT_EQ(check(cv::Mat(6, 8, type, cv::Scalar(0)), DepthView(depth_)), Status::unsupported_image) << type;
+    EXPECT_EQ(check(cv::Mat(6, 8, type, cv::Scalar(0)), DepthView::tum(depth_)), Status::unsupported_image) << type;
 }
 
 TEST_F(FrameCheckTest, NamesDepthsItCannotRead) {
   for (const int type : {CV_8UC1, CV_8UC3, CV_64FC1, CV_32FC3, CV_16SC1})
     EXPECT_EQ(check(gray_, DepthView(cv::Mat(6, 8, type, cv::Scalar(0)))), Status::unsupported_image) << type;
-  for (const double factor : {0.0, -5000.0, kNaN})
-    EXPECT_EQ(check(gray_, DepthView(depth_, factor)), Status::unsupported_image) << factor;
-  EXPECT_EQ(check(gray_, DepthView(cv::Mat(6, 8, CV_32FC1), 0.0)), Status::ok) << "float metres have no factor";
+  for (const double factor : {0.0, -5000.0, kNaN, 1e-300, 1e300})
+    EXPECT_EQ(check(gray_, DepthView(depth_, factor)), Status::depth_unit_missing) << factor;
+  EXPECT_EQ(check(gray_, DepthView(depth_)), Status::depth_unit_missing) << "16 bit has no default";
+  EXPECT_EQ(check(gray_, DepthView::millimetres(depth_)), Status::ok);
+  EXPECT_EQ(check(gray_, DepthView(cv::Mat(6, 8, CV_32FC1, cv::Scalar(2)))), Status::ok)
+      << "float metres have no factor";
+}
+
+// A room in millimetres: half a metre is 500. One far wall among near things is none.
+TEST_F(FrameCheckTest, NamesDepthsBeyondAKilometre) {
+  cv::Mat depth(6, 8, CV_32FC1, cv::Scalar(2000));
+  EXPECT_EQ(check(gray_, DepthView(depth)), Status::implausible_depth);
+  depth.colRange(0, 4).setTo(2);
+  EXPECT_EQ(check(gray_, DepthView(depth)), Status::ok) << "half, not more";
+  depth.setTo(0);
+  EXPECT_EQ(check(gray_, DepthView(depth)), Status::ok) << "none at all";
 }
 
 // A gray image in the place of the colour one would be read three times as wide as it is.
@@ -159,7 +172,7 @@ TEST(FrameHistory, ChainsMotionsAndForgetsWhatNoneLeadsTo) {
 TEST(FrameHistory, ForgetsADepthThatIsGone) {
   FrameHistory history(1);
   const cv::Mat gray(2, 2, CV_8UC1, cv::Scalar(0)), depth(2, 2, CV_16UC1, cv::Scalar(5000));
-  history.push(FrameView(gray, DepthView(depth), 1.0), Pose::Identity());
+  history.push(FrameView(gray, DepthView::tum(depth), 1.0), Pose::Identity());
   EXPECT_FALSE(history.back(1).view().depth.empty());
   history.push(FrameView(gray, DepthView(), 1.1), Pose::Identity());
   EXPECT_TRUE(history.back(1).view().depth.empty());

@@ -47,8 +47,6 @@ TEST(MotionExpectation, ACameraStandsAsItsLastMotionDid) {
     expectation.advance(time_s += 0.1, motion(standing));
     EXPECT_EQ(expectation.at(time_s + 0.1).standing, standing);
   }
-  expectation.advance(time_s += 0.1, motion(true, Status::consensus_inverted));
-  EXPECT_TRUE(expectation.at(time_s + 0.1).standing) << "usable, if doubtful";
 }
 
 // All ways to an answer carry it: the velocity, the host's word, and none of both.

@@ -27,6 +27,8 @@ constexpr Row kTable[] = {
     {Status::first_frame, "first_frame", false},
     {Status::no_image, "no_image", false},
     {Status::unsupported_image, "unsupported_image", false},
+    {Status::depth_unit_missing, "depth_unit_missing", false},
+    {Status::implausible_depth, "implausible_depth", false},
     {Status::size_changed, "size_changed", false},
     {Status::invalid_time, "invalid_time", false},
     {Status::duplicate_frame, "duplicate_frame", false},
@@ -37,9 +39,6 @@ constexpr Row kTable[] = {
     {Status::too_few_matches, "too_few_matches", false},
     {Status::degenerate_geometry, "degenerate_geometry", false},
     {Status::no_consensus, "no_consensus", false},
-    {Status::rotation_only, "rotation_only", true},
-    {Status::consensus_inverted, "consensus_inverted", true},
-    {Status::keep_floor, "keep_floor", true},
 };
 
 TEST(Status, NamesAndJudgementAreThoseOfTheTable) {
@@ -52,7 +51,24 @@ TEST(Status, NamesAndJudgementAreThoseOfTheTable) {
     EXPECT_EQ(motion.usable(), row.judged) << row.name;
     seen.insert(row.status);
   }
-  EXPECT_EQ(seen.size(), static_cast<std::size_t>(Status::keep_floor) + 1) << "a status is missing in the table";
+  EXPECT_EQ(seen.size(), kStatusCount) << "a status is missing in the table";
+}
+
+TEST(Warnings, AreASetWithNames) {
+  std::set<std::string> names;
+  for (std::size_t w = 0; w < kWarningCount; ++w) names.insert(to_string(static_cast<Warning>(w)));
+  EXPECT_EQ(names.size(), kWarningCount);
+  EXPECT_EQ(names.count("?"), 0u);
+  Warnings warnings;
+  EXPECT_TRUE(warnings.empty());
+  warnings.add(Warning::keep_floor);
+  warnings.add(Warning::scale_differs);
+  EXPECT_TRUE(warnings.has(Warning::keep_floor) && warnings.has(Warning::scale_differs));
+  EXPECT_FALSE(warnings.has(Warning::nothing_fits));
+  EXPECT_NE(warnings, Warnings(Warning::keep_floor));
+  std::string order;
+  warnings.for_each([&](Warning warning) { order += to_string(warning) + std::string(" "); });
+  EXPECT_EQ(order, "keep_floor scale_differs ");
 }
 
 TEST(Reason, EveryReasonHasItsOwnName) {

@@ -38,8 +38,8 @@ std::vector<double> ages(double rate_hz, int frames, double depth_m, double long
   const Camera camera(210, 210, 31.5, 23.5, 64, 48);
   const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(50)), depth(48, 64, CV_32FC1, cv::Scalar(depth_m));
   FrameHistory history(16);
-  for (int f = 0; f < frames; ++f) history.push(FrameView(gray, DepthView(depth), f / rate_hz), Pose::Identity());
-  const FrameView current(gray, DepthView(depth), frames / rate_hz);
+  for (int f = 0; f < frames; ++f) history.push(FrameView(gray, DepthView::tum(depth), f / rate_hz), Pose::Identity());
+  const FrameView current(gray, DepthView::tum(depth), frames / rate_hz);
   Matches matches;
   matches.begin(std::vector<Vector2f>{{30, 20}});
   lift(current, GuardedDepth(), camera, KinectNoise(), matches.current);
@@ -85,8 +85,8 @@ class LookBackTest : public testing::Test {
 
   Sighting look(const Vector2f& pixel) {
     FrameHistory history(4);
-    history.push(FrameView(older_gray_, DepthView(older_depth_), 1.0), Pose::Identity());
-    const FrameView current(gray_, DepthView(depth_), 1.1);
+    history.push(FrameView(older_gray_, DepthView::tum(older_depth_), 1.0), Pose::Identity());
+    const FrameView current(gray_, DepthView::tum(depth_), 1.1);
     matches_.begin(std::vector<Vector2f>{pixel});
     lift(current, GuardedDepth(), camera_, noise_, matches_.current);
     look_back_.survey(history, current, filter_from_current_, camera_, noise_, matches_, workspace_);

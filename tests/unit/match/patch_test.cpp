@@ -76,7 +76,7 @@ TEST(Patch, LeavesOutWhatLiesOnAnotherSurface) {
   const cv::Mat image = painted(20, 20, [](int u, int v) { return u < 8 ? u : 100 + 7 * v; });
   cv::Mat depth(20, 20, CV_32FC1, cv::Scalar(2.0));
   depth.colRange(8, 20).setTo(1.0);
-  const DepthView view(depth);
+  const DepthView view = DepthView::tum(depth);
   Patch patch;
   ASSERT_TRUE(cut_patch(image, {6, 8}, PatchMask(view, 2.0, 0.08), patch));
   EXPECT_EQ(patch.count, 48);
@@ -100,7 +100,7 @@ TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
   cv::Mat tenths;  // of a millimetre
   metres.convertTo(tenths, CV_16U, 10000.0);
   tenths.colRange(6, 8) = 0;
-  for (const DepthView& view : {DepthView(metres), DepthView(tenths, 10000.0)}) {
+  for (const DepthView& view : {DepthView::tum(metres), DepthView(tenths, 10000.0)}) {
     PatchPixels mask;
     PatchMask(view, 2.0, kTolerance_m).fill(0, 0, mask);
     const int expected[8] = {-1, -1, 0, -1, 0, -1, -1, -1};
@@ -110,7 +110,7 @@ TEST(PatchMask, TakesPixelsWithinTheToleranceAndWithoutDepth) {
 
 TEST(PatchMask, NeedsADepthAndAnImageOfItsSize) {
   const cv::Mat depth(10, 12, CV_32FC1, cv::Scalar(2.0)), image(10, 12, CV_8UC1), other(20, 24, CV_8UC1);
-  const DepthView view(depth), none;
+  const DepthView view = DepthView::tum(depth), none;
   EXPECT_TRUE(PatchMask(view, 2.0, 0.08).applies_to(image));
   EXPECT_FALSE(PatchMask(view, 2.0, 0.08).applies_to(other));
   EXPECT_FALSE(PatchMask(view, 0.0, 0.08).applies_to(image)) << "no depth";
@@ -276,7 +276,7 @@ TEST(FindPatch, ComparesTheMaskedPartOnly) {
   background.shifted(120, 90, {-7, 3}).colRange(62, 120).copyTo(there.colRange(62, 120));
   cv::Mat depth(90, 120, CV_32FC1, cv::Scalar(1.0));
   depth.colRange(61, 120).setTo(3.0);  // one column of margin for the gradient
-  const DepthView view(depth);
+  const DepthView view = DepthView::tum(depth);
   Patch masked;
   ASSERT_TRUE(cut_patch(here, kCentre, PatchMask(view, 1.0, {}), masked));
   const PatchFit fit = find_patch(masked, there, kCentre, PatchSearch());

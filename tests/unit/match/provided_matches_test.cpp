@@ -105,7 +105,7 @@ class ChainedTracksTest : public testing::Test {
  protected:
   static constexpr int kWidth = 160, kHeight = 120;
 
-  FrameView frame() const { return FrameView(gray_, DepthView(depth_), time_s_); }
+  FrameView frame() const { return FrameView(gray_, DepthView::tum(depth_), time_s_); }
 
   /// The next frame: the host's features, and where it says that they were.
   const Matches& next(const std::vector<Vector2f>& pixels, const std::vector<Vector2f>& before) {

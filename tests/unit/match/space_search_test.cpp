@@ -23,7 +23,7 @@ constexpr int kWidth = 320, kHeight = 240;
 // ---- Pooled depth ----
 
 FrameView view_of(const cv::Mat& gray, const cv::Mat& depth, double timestamp_s) {
-  return FrameView(gray, DepthView(depth), timestamp_s);
+  return FrameView(gray, DepthView::tum(depth), timestamp_s);
 }
 
 // Blocks of 320 / 160 = 2 px: the nearest depth of each, where half of its pixels have one.

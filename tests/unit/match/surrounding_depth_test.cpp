@@ -24,7 +24,8 @@ class SurroundingDepthTest : public testing::Test {
   }
 
   SurroundingDepth at(const Vector2f& pixel, int reach_px) const {
-    return surrounding_depth(FrameView(gray_, DepthView(depth_), 0.0), pixel, reach_px, GuardedDepth(), KinectNoise());
+    return surrounding_depth(FrameView(gray_, DepthView::tum(depth_), 0.0), pixel, reach_px, GuardedDepth(),
+                             KinectNoise());
   }
 
   cv::Mat gray_ = cv::Mat(80, 100, CV_8UC1, cv::Scalar(0)), depth_ = cv::Mat(80, 100, CV_32FC1);

@@ -123,7 +123,7 @@ TEST(Allocation, ColourFramesAndMasksReuseTheirMemoryToo) {
     cv::Mat colour;
     cv::cvtColor(clip.frames[f].gray, colour, cv::COLOR_GRAY2BGR);
     hand_over(clip.frames[f], filter.matcher);
-    const FrameView frame(colour, DepthView(clip.frames[f].depth), clip.frames[f].time_s);
+    const FrameView frame(colour, DepthView::tum(clip.frames[f].depth), clip.frames[f].time_s);
     const std::size_t allocated = count_in([&] {
       filter.filter_frame(frame, clip.frames[f].keypoints).mask(mask);
       filter.feedback(Pose::Identity());

@@ -26,7 +26,7 @@ struct Clip {
     double time_s = 0;
     std::vector<Vector2f> keypoints, reference_pixels;
 
-    FrameView view() const { return FrameView(gray, DepthView(depth), time_s); }
+    FrameView view() const { return FrameView(gray, DepthView::tum(depth), time_s); }
   };
   static constexpr int kWidth = 160, kHeight = 120;
   static constexpr double kCameraStep_m = 0.02, kFocal_px = 150, kMoverStep_px = -2.0, kMoverDepth_m = 0.9;

@@ -68,7 +68,7 @@ TEST_F(DefaultFilter, OnePixelIsAnImage) {
   cv::Mat gray(1, 1, CV_8UC1, cv::Scalar(9)), depth(1, 1, CV_16UC1, cv::Scalar(9000));
   const std::vector<Vector2f> keypoints = {{0, 0}, {5, 5}, {kNaN, 0}};
   for (int f = 0; f < 4; ++f)
-    expect_open(filter.filter_frame(FrameView(gray, DepthView(depth), 0.1 * f), keypoints), 3,
+    expect_open(filter.filter_frame(FrameView(gray, DepthView::tum(depth), 0.1 * f), keypoints), 3,
                 f == 0 ? Status::first_frame : Status::too_few_matches);
 }
 
@@ -81,7 +81,7 @@ TEST_F(DefaultFilter, SmallImagesOfEverySize) {
       cv::Mat gray(size + 3, size, CV_8UC1), depth(size + 3, size, CV_16UC1, cv::Scalar(9000));
       for (int v = 0; v < gray.rows; ++v)
         for (int u = 0; u < gray.cols; ++u) gray.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random.index(256));
-      expect_sound(filter.filter_frame(FrameView(gray, DepthView(depth), 0.1 * f), keypoints), 2);
+      expect_sound(filter.filter_frame(FrameView(gray, DepthView::tum(depth), 0.1 * f), keypoints), 2);
     }
   }
 }

@@ -35,7 +35,7 @@ class FrameFilterTest : public testing::Test {
   FrameFilterTest() { mock::log_to(log_, filter_); }
 
   const FrameResult& at(double time_s) {
-    return filter_.filter_frame(FrameView(gray_, DepthView(depth_), time_s), keypoints_);
+    return filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), time_s), keypoints_);
   }
 
   /// The frame is not judged: everything is kept, nothing is claimed.
@@ -126,7 +126,7 @@ TEST_F(FrameFilterTest, RejectedFramesLeaveTheStateUntouched) {
                         {gray_, depth_, kNaN, Status::invalid_time},
                         {gray_, depth_, 1.0, Status::duplicate_frame}}) {
     log_.calls.clear();
-    expect_open(filter_.filter_frame(FrameView(c.image, DepthView(c.depth), c.time_s), keypoints_), c.status);
+    expect_open(filter_.filter_frame(FrameView(c.image, DepthView::tum(c.depth), c.time_s), keypoints_), c.status);
     EXPECT_TRUE(log_.calls.empty()) << "no stage is asked: " << to_string(c.status);
   }
   Pose expected = Pose::Identity();
@@ -164,7 +164,7 @@ TEST_F(FrameFilterTest, AFrameWithoutKeypointsBecomesTheReference) {
   log_.calls.clear();
   const std::vector<cv::KeyPoint> none;
   gray_.setTo(55);
-  const FrameResult& result = filter_.filter_frame(FrameView(gray_, DepthView(depth_), 1.2), none);
+  const FrameResult& result = filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.2), none);
   EXPECT_EQ(result.status(), Status::no_keypoints);
   EXPECT_EQ(result.size(), 0u);
   EXPECT_EQ(result.kept_count(), 0u);
@@ -173,7 +173,7 @@ TEST_F(FrameFilterTest, AFrameWithoutKeypointsBecomesTheReference) {
   EXPECT_EQ(filter_.matcher.reference_gray, 55);
   // The first frame is the first frame, with key points or without.
   filter_.reset();
-  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView(depth_), 1.4), none).status(), Status::first_frame);
+  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.4), none).status(), Status::first_frame);
 }
 
 TEST_F(FrameFilterTest, WithoutAMotionEverythingIsKeptAndTheFrameBecomesTheReference) {
@@ -191,22 +191,26 @@ TEST_F(FrameFilterTest, WithoutAMotionEverythingIsKeptAndTheFrameBecomesTheRefer
   }
 }
 
-TEST_F(FrameFilterTest, WarningsOfTheMotionAreTheStatusOfAJudgedFrame) {
+TEST_F(FrameFilterTest, WarningsOfTheMotionAreThoseOfAJudgedFrame) {
   double time_s = 1.0;
   at(time_s);
-  for (const Status warning : {Status::rotation_only, Status::consensus_inverted}) {
-    filter_.ego_motion.answer.status = warning;
+  for (const Warning warning : {Warning::rotation_only, Warning::consensus_inverted}) {
+    filter_.ego_motion.answer.warnings = warning;
     const FrameResult& result = at(time_s += 0.1);
-    EXPECT_EQ(result.status(), warning);
+    EXPECT_EQ(result.status(), Status::ok);
+    EXPECT_EQ(result.warnings(), Warnings(warning));
     EXPECT_EQ(result.kept_count(), 3u);
   }
 }
 
 TEST_F(FrameFilterTest, SaysWhereTheKeepFloorActed) {
   filter_.keep_floor.lowest = 1;
+  filter_.ego_motion.answer.warnings = Warning::consensus_inverted;
   at(1.0);
   const FrameResult& result = at(1.1);
-  EXPECT_EQ(result.status(), Status::keep_floor);
+  EXPECT_EQ(result.status(), Status::ok);
+  EXPECT_TRUE(result.warnings().has(Warning::keep_floor));
+  EXPECT_TRUE(result.warnings().has(Warning::consensus_inverted)) << "one hides no other";
   EXPECT_EQ(result.keep_floor_kept(), 1u);
   EXPECT_EQ(result.kept_count(), 4u);
   EXPECT_EQ(result.keep()[1], 1);
@@ -267,7 +271,7 @@ TEST(FrameFilterWithAPriorThatObserves, ItIsToldOfEachMotionAndIsResetWithTheRes
   filter.ego_motion.answer.current_from_reference.translation().x() = 0.5;
   const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(7)), depth(48, 64, CV_16UC1, cv::Scalar(10000));
   const std::vector<Vector2f> keypoints = {{5, 5}, {6, 6}};
-  const auto at = [&](double time_s) { filter.filter_frame({gray, DepthView(depth), time_s}, keypoints); };
+  const auto at = [&](double time_s) { filter.filter_frame({gray, DepthView::tum(depth), time_s}, keypoints); };
   at(1.0);
   EXPECT_EQ(log.count("prior.observe"), 0u) << "nothing has moved yet";
   log.calls.clear();
@@ -289,8 +293,8 @@ TEST(FrameFilterWithAPriorThatObserves, ItIsToldOfEachMotionAndIsResetWithTheRes
 TEST_F(FrameFilterTest, ColourBecomesGray) {
   cv::Mat colour(48, 64, CV_8UC3, cv::Scalar(200, 100, 50)), expected;
   cv::cvtColor(colour, expected, cv::COLOR_BGR2GRAY);
-  filter_.filter_frame(FrameView(colour, DepthView(depth_), 1.0), keypoints_);
-  filter_.filter_frame(FrameView(colour, DepthView(depth_), 1.1), keypoints_);
+  filter_.filter_frame(FrameView(colour, DepthView::tum(depth_), 1.0), keypoints_);
+  filter_.filter_frame(FrameView(colour, DepthView::tum(depth_), 1.1), keypoints_);
   EXPECT_EQ(filter_.matcher.current_gray, expected.at<std::uint8_t>(0, 0));
   EXPECT_EQ(filter_.matcher.reference_gray, expected.at<std::uint8_t>(0, 0));
   EXPECT_EQ(filter_.prior.colour_format, PixelFormat::bgr8) << "a prior still sees the colours";
@@ -300,7 +304,7 @@ TEST_F(FrameFilterTest, ViewsMayDieAfterTheCall) {
   {
     auto gray = std::make_unique<cv::Mat>(48, 64, CV_8UC1, cv::Scalar(33));
     auto depth = std::make_unique<cv::Mat>(48, 64, CV_16UC1, cv::Scalar(5000));
-    filter_.filter_frame(FrameView(*gray, DepthView(*depth), 1.0), keypoints_);
+    filter_.filter_frame(FrameView(*gray, DepthView::tum(*depth), 1.0), keypoints_);
     gray->setTo(99);
     depth->setTo(0);
   }
@@ -452,11 +456,11 @@ TEST_F(FrameFilterTest, TheStandOfTheCameraIsTheLastMotionsUntilReset) {
 TEST_F(FrameFilterTest, TakesAnyContiguousRangeOfKeypoints) {
   at(1.0);
   const std::vector<Eigen::Vector2d> doubles = {{10, 10}, {20, 10}};
-  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView(depth_), 1.1), doubles).size(), 2u);
+  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.1), doubles).size(), 2u);
   const std::array<cv::Point2f, 3> array = {cv::Point2f(1, 2), cv::Point2f(3, 4), cv::Point2f(5, 6)};
-  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView(depth_), 1.2), array).size(), 3u);
+  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.2), array).size(), 3u);
   const span<const cv::KeyPoint> part = span<const cv::KeyPoint>(keypoints_).first(4);
-  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView(depth_), 1.3), part).size(), 4u);
+  EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.3), part).size(), 4u);
 }
 
 TEST_F(FrameFilterTest, KeypointsThatAreNoneAreAnsweredToo) {
@@ -516,8 +520,8 @@ TEST(FrameFilter, WorksOnOnePixel) {
   mock::Filter filter(Camera(1, 1, 0, 0, 1, 1));
   const cv::Mat gray(1, 1, CV_8UC1, cv::Scalar(3)), depth(1, 1, CV_32FC1, cv::Scalar(1.0));
   const std::vector<Vector2f> keypoints = {{0, 0}, {0, 0}};
-  filter.filter_frame(FrameView(gray, DepthView(depth), 1.0), keypoints);
-  const FrameResult& result = filter.filter_frame(FrameView(gray, DepthView(depth), 1.1), keypoints);
+  filter.filter_frame(FrameView(gray, DepthView::tum(depth), 1.0), keypoints);
+  const FrameResult& result = filter.filter_frame(FrameView(gray, DepthView::tum(depth), 1.1), keypoints);
   EXPECT_EQ(result.status(), Status::ok);
   EXPECT_EQ(result.depth_m(0), 1.0);
   ImageBuffer mask;

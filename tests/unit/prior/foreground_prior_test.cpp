@@ -27,7 +27,7 @@ class ForegroundPriorTest : public testing::Test {
 
   Detection only(const cv::Mat& depth) {
     Regions regions;
-    prior_.regions(FrameView(gray_, DepthView(depth), 0.0), regions);
+    prior_.regions(FrameView(gray_, DepthView::tum(depth), 0.0), regions);
     EXPECT_EQ(regions.detections.size(), 1u);
     return regions.detections.at(0);
   }

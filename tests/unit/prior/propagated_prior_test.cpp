@@ -55,7 +55,7 @@ class PropagatedPriorTest : public testing::Test {
     depth(painted & cv::Rect(0, 0, 320, 240)).setTo(thing_m_);
     if (occluder_m_ > 0) depth.setTo(occluder_m_);
     Regions regions;
-    prior_.regions(FrameView(gray, DepthView(depth), now_s()), regions);
+    prior_.regions(FrameView(gray, DepthView::tum(depth), now_s()), regions);
     if (!change.is_observed) return regions;
     Motion motion;
     motion.status = change.is_motion_known ? Status::ok : Status::no_consensus;

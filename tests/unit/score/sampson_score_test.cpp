@@ -83,7 +83,7 @@ TEST_F(SampsonScoreTest, MotionThatIsNotSureMakesLessOfIt) {
 // Where the camera turned only, a pixel may be parallax: of two one is left, half of (1 / 0.5)² is 2.
 TEST_F(SampsonScoreTest, AfterATurnAPointIsExpectedWhereItTakesIt) {
   for (std::size_t i = 0; i < matches.size(); ++i) matches.current.undistorted[i] = matches.reference.undistorted[i];
-  motion.status = Status::rotation_only;
+  motion.warnings = Warning::rotation_only;
   motion.current_from_reference.translation().setZero();
   EXPECT_NEAR(score_of(add({300, 200}, {0, 2})), 1.5, 1e-4);
   EXPECT_NEAR(score_of(add({300, 200}, {0.5, 0.5})), -0.5, 1e-6);

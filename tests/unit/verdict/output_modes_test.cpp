@@ -132,7 +132,7 @@ void expect_zeroed(int type) {
   cv::Mat mask(6, 8, CV_8UC1, cv::Scalar(255));
   mask.at<std::uint8_t>(2, 3) = mask.at<std::uint8_t>(5, 7) = 0;
   ImageBuffer masked;
-  masked_depth(DepthView(depth), mask, masked);
+  masked_depth(DepthView::tum(depth), mask, masked);
   ASSERT_EQ(as_mat(masked.view()).type(), type);
   for (int v = 0; v < 6; ++v)
     for (int u = 0; u < 8; ++u) {
@@ -153,7 +153,7 @@ TEST(MaskedDepth, ReadsRowsWithGaps) {
   const cv::Mat wide = ramp<std::uint16_t>(6, 10, CV_16UC1);
   const cv::Mat depth = wide(cv::Rect(1, 0, 8, 6));
   ImageBuffer masked;
-  masked_depth(DepthView(depth), cv::Mat(6, 8, CV_8UC1, cv::Scalar(255)), masked);
+  masked_depth(DepthView::tum(depth), cv::Mat(6, 8, CV_8UC1, cv::Scalar(255)), masked);
   EXPECT_EQ(cv::countNonZero(as_mat(masked.view()) != depth), 0);
 }
 
@@ -163,7 +163,7 @@ TEST(MaskedDepth, FollowsTheMaskAtHalfItsResolution) {
   cv::Mat mask(6, 8, CV_8UC1, cv::Scalar(255));
   mask(cv::Rect(4, 2, 2, 2)).setTo(0);  // all that depth pixel (2, 1) covers
   ImageBuffer masked;
-  masked_depth(DepthView(depth), mask, masked);
+  masked_depth(DepthView::tum(depth), mask, masked);
   ASSERT_EQ(masked.view().width, 4);
   cv::Mat expected = depth.clone();
   expected.at<std::uint16_t>(1, 2) = 0;
@@ -176,7 +176,7 @@ TEST(MaskedDepth, FollowsTheMaskAtTwiceItsResolution) {
   cv::Mat mask(2, 4, CV_8UC1, cv::Scalar(255));
   mask.at<std::uint8_t>(1, 1) = 0;
   ImageBuffer masked;
-  masked_depth(DepthView(depth), mask, masked);
+  masked_depth(DepthView::tum(depth), mask, masked);
   cv::Mat expected = depth.clone();
   expected(cv::Rect(2, 2, 2, 2)).setTo(0);
   EXPECT_EQ(cv::countNonZero(as_mat(masked.view()) != expected), 0);
@@ -187,7 +187,7 @@ TEST(MaskedDepth, OfNothingIsNothingAndWithoutAMaskAllIsKept) {
   masked_depth(DepthView(), cv::Mat(6, 8, CV_8UC1, cv::Scalar(0)), masked);
   EXPECT_TRUE(masked.view().empty());
   const cv::Mat depth = ramp<float>(6, 8, CV_32FC1);
-  masked_depth(DepthView(depth), ImageView(), masked);
+  masked_depth(DepthView::tum(depth), ImageView(), masked);
   EXPECT_EQ(cv::countNonZero(as_mat(masked.view()) != depth), 0);
 }
 

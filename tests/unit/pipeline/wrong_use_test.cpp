@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// What a host may get wrong, on a synthetic room: each must be said. The table is docs/wrong_use.md's.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <string>
+#include <vector>
+
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/policies.hpp"
+#include "stillpoint/synthetic/renderer.hpp"
+#include "stillpoint/synthetic/scenes.hpp"
+
+namespace stillpoint::wrong_use_test {
+namespace {
+
+/// What the host hands over; rendered depth is 16 bit in TUM's unit.
+struct Handed {
+  cv::Mat gray, depth;  ///< depth in millimetres, 16 bit
+  double time_s = 0;
+  std::vector<Vector2f> keypoints;
+  DepthView view() const { return DepthView::millimetres(depth); }
+};
+
+struct Said {
+  Status status = Status::ok;
+  Warnings warnings;
+  std::string hint;
+};
+
+/// @param hand  hands over what it likes of a correct frame, and says what the filter answered
+/// @return      after the last of 26 frames
+Said after_a_second(const std::function<const FrameResult&(FrameFilter<>&, Handed)>& hand) {
+  synthetic::SceneOptions options;
+  options.width = 320;
+  options.height = 240;
+  options.frames = 26;
+  const synthetic::Scene scene = synthetic::static_room(options);
+  SyntheticSequence sequence(scene);
+  SyntheticFrame frame;
+  FrameFilter<> filter(scene.camera);
+  Said said;
+  for (int f = 0; f < sequence.size(); ++f) {
+    sequence.render(f, frame);
+    Handed handed;
+    handed.gray = as_mat(frame.gray.view()).clone();
+    as_mat(frame.depth.view()).convertTo(handed.depth, CV_16U, 1000.0 / frame.depth_factor);
+    handed.time_s = frame.timestamp_s;
+    std::vector<cv::KeyPoint> found;
+    cv::ORB::create(300)->detect(handed.gray, found);
+    for (const cv::KeyPoint& keypoint : found) handed.keypoints.emplace_back(keypoint.pt.x, keypoint.pt.y);
+    const FrameResult& result = hand(filter, handed);
+    said = {result.status(), result.warnings(), result.hint()};
+  }
+  return said;
+}
+
+void expect_hint(const Said& said, const char* word) {
+  EXPECT_NE(said.hint.find(word), std::string::npos) << "hint: " << said.hint;
+}
+
+TEST(WrongUse, RightUseHasNoHint) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray, frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::ok);
+  EXPECT_TRUE(said.warnings.empty());
+  EXPECT_EQ(said.hint, "");
+}
+
+TEST(WrongUse, SixteenBitDepthWithoutItsUnit) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray, frame.depth, frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::depth_unit_missing);
+  expect_hint(said, "DepthView::millimetres");
+}
+
+// What is 2.4 to 4.5 m away is said to be 0.5 to 0.9 m away.
+TEST(WrongUse, MillimetresDeclaredAsTumsUnit) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray, DepthView::tum(frame.depth), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::depth_too_near));
+  expect_hint(said, "millimetres");
+}
+
+TEST(WrongUse, MirroredDepth) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    cv::Mat mirrored;
+    cv::flip(frame.depth, mirrored, 1);
+    return filter.filter_frame({frame.gray, DepthView::millimetres(mirrored), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::depth_turned_over));
+  expect_hint(said, "mirrored");
+}
+
+TEST(WrongUse, FloatDepthInMillimetres) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    cv::Mat millimetres;
+    frame.depth.convertTo(millimetres, CV_32F);
+    return filter.filter_frame({frame.gray, millimetres, frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::implausible_depth);
+  expect_hint(said, "millimetres");
+}
+
+TEST(WrongUse, TimeInNanoseconds) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray, frame.view(), 1e9 * (1.7e9 + frame.time_s)}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::invalid_time);
+  expect_hint(said, "seconds");
+}
+
+TEST(WrongUse, TimeInMicroseconds) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray, frame.view(), 1e6 * frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::time_gap);
+  EXPECT_TRUE(said.warnings.has(Warning::times_far_apart));
+  expect_hint(said, "seconds");
+}
+
+TEST(WrongUse, KeypointsOfAnImageOfHalfTheSize) {
+  const Said said = after_a_second([](FrameFilter<>& filter, Handed frame) -> const FrameResult& {
+    for (Vector2f& pixel : frame.keypoints) pixel *= 0.5f;
+    return filter.filter_frame({frame.gray, frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::keypoints_in_one_quarter));
+  expect_hint(said, "quarter");
+}
+
+TEST(WrongUse, KeypointsOfAnImageOfTwiceTheSize) {
+  const Said said = after_a_second([](FrameFilter<>& filter, Handed frame) -> const FrameResult& {
+    for (Vector2f& pixel : frame.keypoints) pixel *= 2.0f;
+    return filter.filter_frame({frame.gray, frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::keypoints_outside));
+  expect_hint(said, "outside");
+}
+
+TEST(WrongUse, ImageOfAnotherSize) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray(cv::Rect(0, 0, 160, 120)), frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::size_changed);
+  expect_hint(said, "size");
+}
+
+// The host's poses are in metres; its depths were five times too small.
+TEST(WrongUse, AScaleThatIsNotTheHosts) {
+  Pose world_from_camera = Pose::Identity();
+  const Said said = after_a_second([&](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    const FrameResult& result = filter.filter_frame({frame.gray, frame.view(), frame.time_s}, frame.keypoints);
+    Pose step = result.motion().current_from_reference.inverse();
+    step.translation() *= 5.0;
+    world_from_camera = world_from_camera * step;
+    filter.feedback(world_from_camera);
+    return result;
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::scale_differs));
+  expect_hint(said, "unit");
+}
+
+}  // namespace
+}  // namespace stillpoint::wrong_use_test
