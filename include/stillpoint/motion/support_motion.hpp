@@ -133,12 +133,11 @@ class SupportMotion {
   }
 
  private:
-  static constexpr double kConfidence = 0.9996;  // of not missing what explains more than the past
-  static constexpr double kSameMotion_px = 1.0;  // hypotheses that move the matches less apart on average are one
-  static constexpr double kLeastSupport = 0.08;  // share of all weight that the motion must explain
-  static constexpr double kUndisputedLoss =
-      48.0;                                   // squared sigmas that suspects may cost the trusted and count in full
-  static constexpr double kCreepGain = 60.0;  // squared sigmas by which a motion must beat standing still
+  static constexpr double kConfidence = 0.9996;    // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;    // hypotheses that move the matches less apart on average are one
+  static constexpr double kLeastSupport = 0.08;    // share of all weight that the motion must explain
+  static constexpr double kUndisputedLoss = 12.6;  // squared sigmas that suspects in full may cost the trusted
+  static constexpr double kCreepGain = 60.0;       // squared sigmas by which a motion must beat standing still
   static constexpr double kLeastPixelSigma =
       0.1;  // of the measured noise, pixels; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
@@ -194,7 +193,8 @@ class SupportMotion {
 
   /// The motion with suspects in full, where the trusted do not object: what was seen moving is parked, and its points
   /// are as good as any. Where they object, the trusted hypothesis as it is. The loss of the trusted has a χ²
-  /// distribution of six degrees of freedom if all stand still.
+  /// distribution of six degrees of freedom if all stand still: its 95 % quantile is the most that they may lose. What
+  /// has just started moves a few trusted corners by less than their noise, and would take the motion along.
   template <class Camera>
   Hypothesis with_suspects(const Hypothesis& trusted, span<const double> cutoffs,
                            SupportProblem<Camera>& problem) const {
