@@ -38,7 +38,7 @@ class ProvidedMatches {
  public:
   struct Options {
     float border_px = 10.0f;      ///< nearer to either image's border a feature stays out of ego-motion; 0: none
-    float same_point_px = 0.5f;   ///< a track goes on at a feature of the last frame within this
+    float same_point_px = 1.0f;   ///< a track goes on at a feature of the last frame within this
     float objection_px = 1.0f;    ///< a track farther from the place of a standing point objects …
     float known_log_odds = 1.0f;  ///< … and the patch has the last word, unless memory says so clearly that it moves
     int occluder_reach_px = 8;    ///< of a track beside something nearer nothing is believed
@@ -79,6 +79,8 @@ class ProvidedMatches {
     tracks_.push(matches, history.capacity(), options.same_point_px, workspace);
     survey_older_frames(older, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
     find_tracks_beside_occluders(current, camera, noise, matches);
+    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
+                             surfaces.scaled_step_px(camera), matches, workspace);
   }
 
   /// Looks for the surfaces once more, and says where the features were.
