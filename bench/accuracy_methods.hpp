@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "accuracy_sequence.hpp"
+#include "filter_run.hpp"
+#include "host_tracks.hpp"
 #include "run/corrections.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
@@ -41,6 +43,7 @@ Method filter_method(std::string name, Adjust adjust) {
             const LabelledFrame* last = nullptr;
             for (const LabelledFrame& frame : sequence.frames) {
               if (gives_boxes) filter.prior.detections = frame.detections;
+              detail::give_tracks(filter.matcher, frame, 0);
               const FrameResult& result = filter.filter_frame(frame.view(), frame.keypoints);
               const Motion& motion = result.motion();
               tally.add(frame, last, result.keep(),
@@ -48,6 +51,13 @@ Method filter_method(std::string name, Adjust adjust) {
               last = &frame;
             }
             return tally.outcome();
+          }};
+}
+
+/// A method on corners that Lucas-Kanade has followed, in place of ORB's key points.
+inline Method on_followed_corners(std::string name, Method method) {
+  return {std::move(name), [run = std::move(method.run)](const LabelledSequence& sequence, bool gives_boxes) {
+            return run(with_followed_corners(sequence), gives_boxes);
           }};
 }
 
@@ -147,6 +157,9 @@ inline std::vector<Method> methods() {
                                    std::pair(SwitchedMotion::Kind::epipolar, "`EpipolarMotion`")})
     rows.push_back(filter_method<SwitchedPolicies>(std::string("with ") + name,
                                                    [kind = kind](auto& filter) { filter.ego_motion.kind = kind; }));
+  rows.push_back(on_followed_corners("`DefaultPolicies`, followed corners", rows.front()));
+  rows.push_back(
+      on_followed_corners("`ProvidedMatches`, followed corners", filter_method<TrackPolicies>({}, as_it_is)));
   rows.push_back(filter_method<PaperPolicies>("`PaperPolicies`", as_it_is));
   rows.push_back(
       filter_method<PaperPolicies>("as printed: eq3", [](auto& f) { f.ego_motion.options.printed_eq3 = true; }));

@@ -35,6 +35,7 @@ struct ClipFrame {
   cv::Mat gray, depth;
   double depth_factor = 5000.0, timestamp_s = 0.0;
   std::vector<cv::KeyPoint> keypoints;
+  std::vector<Vector2f> reference_pixels;  ///< where a host has seen them in the last frame; empty: it does not follow
   std::vector<Detection> detections;
 
   FrameView view() const { return FrameView(gray, DepthView(depth, depth_factor), timestamp_s); }

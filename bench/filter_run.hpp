@@ -22,6 +22,15 @@ auto give_boxes(Prior& prior, const ClipFrame& frame, int) -> decltype(prior.det
 template <class Prior>
 void give_boxes(Prior&, const ClipFrame&, long) {}
 
+/// Only a matcher that takes tracks gets them.
+template <class Matcher>
+auto give_tracks(Matcher& matcher, const ClipFrame& frame, int)
+    -> decltype(matcher.reference_pixels = frame.reference_pixels, void()) {
+  matcher.reference_pixels = frame.reference_pixels;
+}
+template <class Matcher>
+void give_tracks(Matcher&, const ClipFrame&, long) {}
+
 }  // namespace detail
 
 /// Does to a clip what a host does before its tracking.
@@ -40,6 +49,7 @@ class FilterRun {
   const FrameResult& filter(std::size_t i) {
     const ClipFrame& frame = clip_.frames[i];
     detail::give_boxes(filter_.prior, frame, 0);
+    detail::give_tracks(filter_.matcher, frame, 0);
     return filter_.filter_frame(frame.view(), frame.keypoints);
   }
 

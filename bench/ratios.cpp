@@ -25,6 +25,7 @@
 
 #include "clip.hpp"
 #include "filter_run.hpp"
+#include "host_tracks.hpp"
 #include "pairs.hpp"
 #include "stillpoint/core/error.hpp"
 #include "two_views.hpp"
@@ -198,6 +199,7 @@ void measure(const Settings& settings) {
               settings.repetitions);
   std::printf("# %-38s %9s %9s %7s\n", "name", "ours_ms", "theirs_ms", "ratio");
   measure_filter<DefaultPolicies>(clip, settings.repetitions, "");
+  measure_filter<TrackPolicies>(with_followed_corners(clip), settings.repetitions, "tracks_");
   measure_filter<PaperPolicies>(clip, settings.repetitions, "paper_");
   measure_matching(clip, settings.repetitions);
   measure_clustering(settings.repetitions);

@@ -46,12 +46,7 @@ class LookBack {
   void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
               const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
     const OlderFrameChoice choice{options.slowest_m_s, options.pixel_sigma, options.longest_s};
-    choice.choose(history, current, camera, matches, workspace);
-    surfaces.collect(current, camera, noise, matches.sightings.surfaces);
-    const span<OlderFrame> frames = matches.sightings.frames();
-    look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.sightings.surfaces,
-                      frames.first(std::min<std::size_t>(frames.size(), 1)));
-    if (!frames.empty()) predict_places(frames[0].reference_from_current, camera, matches);
+    survey_older_frames(choice, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
     space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
                              surfaces.scaled_step_px(camera), matches, workspace);
   }
@@ -84,9 +79,7 @@ class LookBack {
   static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
   static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
-  static constexpr float kClearlyAlike = 0.12f;   // a feature no more unlike in the last and in the oldest frame …
-  static constexpr float kClearlyThere_px = 0.7f;  // … and no farther from its place is not looked for in those between
-  static constexpr int kSearchIterations = 3;      // a static point is not three pixels away: more find look-alikes
+  static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
   static constexpr float kSearchPrecision_px = 0.2f;
 
   /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
@@ -147,27 +140,13 @@ class LookBack {
       if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
     };
     const span<OlderFrame> frames = sightings.frames();
-    const bool is_support = i >= matches.host_count;
-    for (OlderFrame& older : frames) older.of_feature[i] = Sighting{};
-    if (!frames.empty()) look_at(frames[0]);
-    for (std::size_t f = frames.size(); f-- > 1;)  // the oldest, then those between
-      if (f + 1 == frames.size() || is_support || !clearly_stands(i, frames)) look_at(frames[f]);
+    look_in_older_frames(i, frames, i >= matches.host_count, look_at);
     float dissimilarity = 0;
     for (const OlderFrame& older : frames) {
       const Sighting& sighting = older.of_feature[i];
       dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : 1.0f;
     }
     return dissimilarity;
-  }
-
-  /// Where neither the last nor the oldest frame objects, those between would not either.
-  bool clearly_stands(std::size_t i, span<const OlderFrame> frames) const noexcept {
-    const auto agrees = [&](const OlderFrame& older) {
-      const Sighting& sighting = older.of_feature[i];
-      return sighting.state == SightingState::seen && sighting.dissimilarity < kClearlyAlike &&
-             sighting.offset_px < kClearlyThere_px;
-    };
-    return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
   }
 
   template <class Camera, class Noise>

@@ -94,4 +94,40 @@ void predict_places(const Pose& reference_from_current, const Camera& camera, Ma
   }
 }
 
+/// Before the motion is known: chooses the older frames, and finds the surfaces in the last one.
+/// @param filter_from_expected  where the camera is expected now
+template <class Camera, class Noise>
+void survey_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& surfaces, const FrameHistory& history,
+                         const FrameView& current, const Pose& filter_from_expected, const Camera& camera,
+                         const Noise& noise, Matches& matches, Workspace& workspace) {
+  choice.choose(history, current, camera, matches, workspace);
+  surfaces.collect(current, camera, noise, matches.sightings.surfaces);
+  const span<OlderFrame> frames = matches.sightings.frames();
+  if (frames.empty()) return;
+  look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.sightings.surfaces,
+                    frames.first(1));
+  predict_places(frames[0].reference_from_current, camera, matches);
+}
+
+/// Where neither the last nor the oldest frame objects to feature `i` standing still, those between would not either.
+inline bool clearly_stands(std::size_t i, span<const OlderFrame> frames) noexcept {
+  constexpr float kAlike = 0.12f, kThere_px = 0.7f;
+  const auto agrees = [i](const OlderFrame& older) {
+    const Sighting& sighting = older.of_feature[i];
+    return sighting.state == SightingState::seen && sighting.dissimilarity < kAlike && sighting.offset_px < kThere_px;
+  };
+  return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
+}
+
+/// Calls `look_at(frame)`, which fills the sighting of feature `i`, for the last frame, then for the oldest, then for
+/// those between, unless it clearly stands.
+/// @param in_all  in those between in any case
+template <class LookAt>
+void look_in_older_frames(std::size_t i, span<OlderFrame> frames, bool in_all, const LookAt& look_at) {
+  for (OlderFrame& older : frames) older.of_feature[i] = Sighting{};
+  if (!frames.empty()) look_at(frames[0]);
+  for (std::size_t f = frames.size(); f-- > 1;)
+    if (f + 1 == frames.size() || in_all || !clearly_stands(i, frames)) look_at(frames[f]);
+}
+
 }  // namespace stillpoint

@@ -38,7 +38,7 @@ class ProvidedMatches {
  public:
   struct Options {
     float border_px = 10.0f;      ///< nearer to either image's border a feature stays out of ego-motion; 0: none
-    float same_point_px = 0.5f;   ///< a track goes on at a feature of the last frame within this
+    float same_point_px = 1.0f;   ///< a track goes on at a feature of the last frame within this
     float objection_px = 1.0f;    ///< a track farther from the place of a standing point objects …
     float known_log_odds = 1.0f;  ///< … and the patch has the last word, unless memory says so clearly that it moves
     int occluder_reach_px = 8;    ///< of a track beside something nearer nothing is believed
@@ -77,13 +77,10 @@ class ProvidedMatches {
     if (history.capacity() < 2) return;
     matches.host_supports = true;
     tracks_.push(matches, history.capacity(), options.same_point_px, workspace);
-    older.choose(history, current, camera, matches, workspace);
+    survey_older_frames(older, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
     find_tracks_beside_occluders(current, camera, noise, matches);
-    surfaces.collect(current, camera, noise, matches.sightings.surfaces);
-    const span<OlderFrame> frames = matches.sightings.frames();
-    look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.sightings.surfaces,
-                      frames.first(std::min<std::size_t>(frames.size(), 1)));
-    if (!frames.empty()) predict_places(frames[0].reference_from_current, camera, matches);
+    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
+                             surfaces.scaled_step_px(camera), matches, workspace);
   }
 
   /// Looks for the surfaces once more, and says where the features were.
@@ -115,8 +112,7 @@ class ProvidedMatches {
   static constexpr double kSupposedSpread = 0.1;  // of the inverse depth between the surfaces beside a feature
   static constexpr double kBridgedSpread = 0.03;  // where these are one surface
   static constexpr float kLeastContrast = 3.0f;   // of a patch that can be compared, gray values
-  static constexpr float kClearlyThere_px = 0.7f;
-  static constexpr int kFewestPixels = 25;  // of a patch's 64 that must lie on the feature's surface
+  static constexpr int kFewestPixels = 25;        // of a patch's 64 that must lie on the feature's surface
 
   /// The pixels around a feature, cut out when they are asked for first.
   struct FeaturePatch {
@@ -174,7 +170,6 @@ class ProvidedMatches {
     Sightings& sightings = matches.sightings;
     sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
     sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
-    const span<OlderFrame> frames = sightings.frames();
     FeaturePatch patch{matches.current.pixel[i], depth_m, DepthTolerance().at(noise.sigma(depth_m))};
     float sum_px = 0;
     const auto look_at = [&](OlderFrame& frame) {
@@ -194,10 +189,7 @@ class ProvidedMatches {
       if (sighting.offset_px > options.objection_px && !(observations.remembered.log_odds[i] > options.known_log_odds))
         examine(patch, current, past, place, camera, sighting);
     };
-    for (OlderFrame& frame : frames) frame.of_feature[i] = Sighting{};
-    look_at(frames[0]);
-    for (std::size_t f = frames.size(); f-- > 1;)  // the oldest, then those between
-      if (f + 1 == frames.size() || !clearly_stands(i, frames)) look_at(frames[f]);
+    look_in_older_frames(i, sightings.frames(), false, look_at);
     return sum_px;
   }
 
@@ -212,15 +204,6 @@ class ProvidedMatches {
     sighting.dissimilarity = fit.dissimilarity;
     sighting.offset_px = fit.offset.norm();
     sighting.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
-  }
-
-  /// Where neither the last nor the oldest frame objects, those between would not either.
-  static bool clearly_stands(std::size_t i, span<const OlderFrame> frames) noexcept {
-    const auto agrees = [i](const OlderFrame& frame) {
-      const Sighting& sighting = frame.of_feature[i];
-      return sighting.dissimilarity < 2 * kDissimilarity && sighting.offset_px < kClearlyThere_px;
-    };
-    return agrees(frames[0]) && agrees(frames[frames.size() - 1]);
   }
 
   TrackHistory tracks_;

@@ -90,6 +90,7 @@ class SpaceSearch {
     const span<Side> next = workspace.take<Side>(cells.size());
     for (std::size_t s = 0; s < cells.size(); ++s)
       side[s] = cells[s].space_trust < 1.0f ? Side::came : cells[s].was_there > 0 ? Side::stood : Side::nobody_knows;
+    if (std::find(side.begin(), side.end(), Side::came) == side.end()) return;  // nothing to hand on
     const auto majority = [&](const Vector2f& pixel, double depth_m) {
       int came = 0, stood = 0;
       neighbours.around(pixel, depth_m, [&](std::size_t s) {
@@ -101,6 +102,7 @@ class SpaceSearch {
     for (int round = 0; round < kSpreadCells; ++round) {
       for (std::size_t s = 0; s < cells.size(); ++s)
         next[s] = side[s] == Side::nobody_knows ? majority(cells[s].pixel, cells[s].point.z()) : side[s];
+      if (std::equal(next.begin(), next.end(), side.begin())) break;
       std::copy(next.begin(), next.end(), side.begin());
     }
     for (std::size_t i = matches.host_count; i < matches.size(); ++i)

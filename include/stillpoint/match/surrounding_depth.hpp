@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 
 #include "stillpoint/core/frame.hpp"
@@ -18,6 +19,15 @@ namespace stillpoint {
 struct SurroundingDepth {
   double nearest_m = 0, farthest_m = 0;
 };
+
+namespace detail {
+
+/// Quicker than to ask for the depth: most of what is beside a feature without one is a hole, too.
+inline bool is_hole(const DepthView& depth, int u, int v) noexcept {
+  return depth.image.format == PixelFormat::depth16 && depth.image.row<std::uint16_t>(v)[u] == 0;
+}
+
+}  // namespace detail
 
 /// Walks in eight directions to the first pixel with a depth each.
 template <class Noise>
@@ -33,10 +43,17 @@ SurroundingDepth surrounding_depth(const FrameView& frame, const Vector2f& pixel
                                                              {-kDiagonal, -kDiagonal},
                                                              {0, -1},
                                                              {kDiagonal, -kDiagonal}}};
+  if (frame.depth.empty()) return {};
   SurroundingDepth found{std::numeric_limits<double>::infinity(), 0.0};
+  const DepthScale to_depth(frame.gray, frame.depth.image);
+  const Vector2f start = to_depth(pixel);
   for (const auto& [x, y] : kDirections) {
+    const Vector2f direction(x * to_depth.x, y * to_depth.y);
     for (int distance = kStep_px; distance <= reach_px; distance += kStep_px) {
-      const double depth_m = guard.at(frame, pixel + static_cast<float>(distance) * Vector2f(x, y), noise);
+      const Vector2f at = start + static_cast<float>(distance) * direction;
+      const bool is_inside = frame.depth.image.border_distance_px(at.x(), at.y()) >= 0.5f;  // so that it fits an int
+      if (!is_inside || detail::is_hole(frame.depth, rounded(at.x()), rounded(at.y()))) continue;
+      const double depth_m = guard.at(frame.depth, at, noise);
       if (!(depth_m > 0)) continue;
       found.nearest_m = std::min(found.nearest_m, depth_m);
       found.farthest_m = std::max(found.farthest_m, depth_m);

@@ -160,10 +160,24 @@ TEST_F(ChainedTracksTest, ATrackSaysWhereAFeatureWasInOlderFrames) {
 TEST_F(ChainedTracksTest, AFeatureGoesOnFromTheNearestOneOfTheLastFrame) {
   next({{30, 60}, {33, 60}}, {});
   next({{33, 60}, {36, 60}}, {{30, 60}, {33, 60}});
-  next({{36.2f, 60}, {39, 62}}, {{33.2f, 60}, {37, 62}});
+  next({{36.2f, 60}, {39, 62}, {36.8f, 60}}, {{33.2f, 60}, {37, 62}, {33.8f, 60}});
   EXPECT_NEAR(columns(0)[2], 30.2f, 1e-3) << "0.2 px beside the last frame's feature, and so before";
   EXPECT_EQ(columns(1).count(2), 0u) << "2.2 px from any: its track begins there";
   EXPECT_EQ(columns(1).count(1), 1u);
+  EXPECT_NEAR(columns(2)[2], 30.8f, 1e-3) << "a key point that was detected anew, within a pixel of the last one";
+}
+
+TEST_F(ChainedTracksTest, SurfacesThatCameHaveLittleSayInTheMotion) {
+  for (int f = 0; f < 15; ++f) next({{30, 60}}, {{30, 60}});  // half a second
+  depth_(cv::Rect(60, 30, 60, 60)).setTo(1.2);
+  next({{30, 60}}, {{30, 60}});
+  int came = 0, stood = 0;
+  for (const SurfaceCell& cell : matches_.sightings.surfaces) {
+    ++(cell.point.z() < 1.5 ? came : stood);
+    EXPECT_EQ(cell.trust < 0.5f, cell.point.z() < 1.5) << cell.pixel.transpose();
+  }
+  EXPECT_GT(came, 10);
+  EXPECT_GT(stood, 10);
 }
 
 TEST_F(ChainedTracksTest, AGapEndsATrack) {

@@ -37,6 +37,15 @@ TEST_F(SurroundingDepthTest, FindsBothSurfacesBesideAHole) {
   EXPECT_EQ(found.farthest_m, 3.0);
 }
 
+TEST_F(SurroundingDepthTest, WalksOverHolesOfSixteenBitsToo) {
+  cv::Mat depth_mm;
+  depth_.convertTo(depth_mm, CV_16UC1, 1000.0);
+  const FrameView frame(gray_, DepthView(depth_mm, 1000.0), 0.0);
+  const SurroundingDepth found = surrounding_depth(frame, {50, 40}, 20, GuardedDepth(), KinectNoise());
+  EXPECT_FLOAT_EQ(static_cast<float>(found.nearest_m), 1.0f);
+  EXPECT_FLOAT_EQ(static_cast<float>(found.farthest_m), 3.0f);
+}
+
 // From x = 56 the right rim, at 60, is near, the left one, at 39, is not.
 TEST_F(SurroundingDepthTest, EndsAtItsReach) {
   const SurroundingDepth found = at({56, 40}, 8);

@@ -6,34 +6,25 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <opencv2/features2d.hpp>
 #include <vector>
 
-#include "stillpoint/evaluation/feature_score.hpp"
+#include "scene_run.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
-#include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
 namespace stillpoint::monocular_test {
 namespace {
 
-struct Outcome {
-  FilterScore score;
-  int judged = 0;
-};
+using scene_run::Outcome;
+using scene_run::small;
 
 Outcome run(const synthetic::Scene& scene, bool with_boxes) {
-  SyntheticSequence sequence(scene);
-  SyntheticFrame frame;
   FrameFilter<MonocularPolicies> filter(scene.camera);
   const auto orb = cv::ORB::create(500);
-  Outcome outcome;
-  for (int f = 0; f < sequence.size(); ++f) {
-    sequence.render(f, frame);
+  return scene_run::run(scene, [&](const SyntheticFrame& frame, std::vector<Vector2f>& pixels) -> const FrameResult& {
     for (const synthetic::TruthBox& box : frame.boxes) {
       if (!with_boxes || box.class_name == synthetic::kUnknownClass) continue;
       filter.prior.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y),
@@ -43,29 +34,17 @@ Outcome run(const synthetic::Scene& scene, bool with_boxes) {
     }
     std::vector<cv::KeyPoint> keypoints;
     orb->detect(as_mat(frame.gray.view()), keypoints);
+    for (const cv::KeyPoint& keypoint : keypoints) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
     FrameView view = frame.view();
     view.depth = DepthView();
-    const FrameResult& result = filter.filter_frame(view, keypoints);
-    outcome.judged += judged(result.status());
+    const FrameResult& result = filter.filter_frame(view, pixels);
     if (judged(result.status())) {
       EXPECT_FALSE(result.motion().metric);
       const double length = result.motion().current_from_reference.translation().norm();
       EXPECT_TRUE(length == 0.0 || std::abs(length - 1.0) < 1e-9) << length << " is a claim of metres";
     }
-    std::vector<Vector2f> pixels;
-    for (const cv::KeyPoint& keypoint : keypoints) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
-    outcome.score.add_frame(frame.labels.view(), pixels, result.keep());
-  }
-  return outcome;
-}
-
-synthetic::SceneOptions small(int frames) {
-  synthetic::SceneOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.frames = frames;
-  options.seed = 1;
-  return options;
+    return result;
+  });
 }
 
 TEST(Monocular, AStaticRoomIsLeftAlone) {

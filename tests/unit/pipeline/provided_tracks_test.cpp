@@ -6,98 +6,39 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
-#include <opencv2/imgproc.hpp>
-#include <opencv2/video/tracking.hpp>
+#include <type_traits>
 #include <vector>
 
+#include "backends/followed_corners.hpp"
 #include "clip.hpp"
-#include "stillpoint/evaluation/feature_score.hpp"
+#include "scene_run.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/match/provided_matches.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
-#include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
-namespace stillpoint {
+namespace stillpoint::provided_tracks_test {
 namespace {
+
+using scene_run::Outcome;
+using scene_run::small;
 
 struct OnTracks : DefaultPolicies {
   using Matcher = ProvidedMatches;
 };
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-
-/// Corners that OpenCV follows from frame to frame, refilled up to a number: what a host with tracks has.
-class Corners {
- public:
-  std::vector<Vector2f> pixels, reference_pixels;
-
-  void next(const cv::Mat& image) {
-    constexpr int kMost = 500;
-    std::vector<cv::Point2f> now, fresh;
-    std::vector<unsigned char> found;
-    if (!points_.empty()) cv::calcOpticalFlowPyrLK(last_, image, points_, now, found, cv::noArray());
-    pixels.clear();
-    reference_pixels.clear();
-    cv::Mat is_free(image.size(), CV_8UC1, cv::Scalar(255));
-    const cv::Rect2f inside(0, 0, static_cast<float>(image.cols - 1), static_cast<float>(image.rows - 1));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (found[i] == 0 || !inside.contains(now[i])) continue;
-      pixels.emplace_back(now[i].x, now[i].y);
-      reference_pixels.emplace_back(points_[i].x, points_[i].y);
-      cv::circle(is_free, now[i], 5, cv::Scalar(0), cv::FILLED);
-    }
-    if (static_cast<int>(pixels.size()) < kMost)
-      cv::goodFeaturesToTrack(image, fresh, kMost - static_cast<int>(pixels.size()), 0.01, 5, is_free);
-    for (const cv::Point2f& corner : fresh) {
-      pixels.emplace_back(corner.x, corner.y);
-      reference_pixels.emplace_back(kNaN, kNaN);
-    }
-    points_.clear();
-    for (const Vector2f& pixel : pixels) points_.emplace_back(pixel.x(), pixel.y());
-    last_ = image.clone();
-  }
-
- private:
-  cv::Mat last_;
-  std::vector<cv::Point2f> points_;
-};
-
-struct Outcome {
-  FilterScore score;
-  int judged = 0, frames = 0;
-};
-
 template <class Policies>
 Outcome run(const synthetic::Scene& scene) {
-  SyntheticSequence sequence(scene);
-  SyntheticFrame frame;
   FrameFilter<Policies> filter(scene.camera);
-  Corners corners;
-  Outcome outcome;
-  for (int f = 0; f < sequence.size(); ++f) {
-    sequence.render(f, frame);
+  examples::FollowedCorners corners(500);
+  return scene_run::run(scene, [&](const SyntheticFrame& frame, std::vector<Vector2f>& pixels) -> const FrameResult& {
     corners.next(as_mat(frame.gray.view()));
     if constexpr (std::is_same_v<typename Policies::Matcher, ProvidedMatches>)
       filter.matcher.reference_pixels = corners.reference_pixels;
-    const FrameResult& result = filter.filter_frame(frame.view(), corners.pixels);
-    outcome.score.add_frame(frame.labels.view(), corners.pixels, result.keep());
-    if (f == 0) continue;
-    ++outcome.frames;
-    outcome.judged += judged(result.status());
-  }
-  return outcome;
-}
-
-synthetic::SceneOptions small(int frames) {
-  synthetic::SceneOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.frames = frames;
-  options.seed = 1;
-  return options;
+    pixels = corners.pixels;
+    return filter.filter_frame(frame.view(), pixels);
+  });
 }
 
 TEST(ProvidedTracks, ABoxThatIsPushedIsFoundAsByThePatchSearch) {
@@ -188,4 +129,4 @@ TEST_F(ProvidedTracksOfClip, NoTrackReachesAcrossAResetOrAGap) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::provided_tracks_test
