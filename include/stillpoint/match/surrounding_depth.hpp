@@ -8,6 +8,7 @@
 #include <array>
 #include <limits>
 
+#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
@@ -34,9 +35,12 @@ SurroundingDepth surrounding_depth(const FrameView& frame, const Vector2f& pixel
                                                              {0, -1},
                                                              {kDiagonal, -kDiagonal}}};
   SurroundingDepth found{std::numeric_limits<double>::infinity(), 0.0};
+  if (frame.depth.empty()) return SurroundingDepth{};
+  const DepthScale to_depth(frame.gray, frame.depth.image);
   for (const auto& [x, y] : kDirections) {
     for (int distance = kStep_px; distance <= reach_px; distance += kStep_px) {
-      const double depth_m = guard.at(frame, pixel + static_cast<float>(distance) * Vector2f(x, y), noise);
+      const Vector2f beside = pixel + static_cast<float>(distance) * Vector2f(x, y);
+      const double depth_m = guard.at(frame.depth, to_depth(beside), noise);
       if (!(depth_m > 0)) continue;
       found.nearest_m = std::min(found.nearest_m, depth_m);
       found.farthest_m = std::max(found.farthest_m, depth_m);
