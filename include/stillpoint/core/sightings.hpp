@@ -74,6 +74,9 @@ class Sightings {
   std::vector<Vector3d> point;
   std::vector<double> inverse_depth_sigma;  ///< of 1 / point.z, per metre
   std::vector<std::uint8_t> seen_through;   ///< how many views of the past seconds saw something farther in its place
+  /// The features inside the image, neighbours near to each other: looked for in this order, what one reads of an image
+  /// is still at hand for the next.
+  std::vector<std::uint32_t> order;
 
   /// Whether a feature's depth is a guess between the surfaces beside it: not measured, not borrowed, not bridged.
   bool is_guess(std::size_t i) const noexcept {
@@ -89,6 +92,7 @@ class Sightings {
     point.clear();
     inverse_depth_sigma.clear();
     seen_through.clear();
+    order.clear();
     count_ = 0;
   }
 

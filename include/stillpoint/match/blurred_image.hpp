@@ -57,7 +57,8 @@ class BlurredImage {
 
   /// Bilinear value and slope, per pixel of the full-sized image. False outside.
   bool sample(const Vector2f& full_pixel, float& value, Vector2f& slope) const noexcept {
-    const Vector2f at_px = ((full_pixel.array() + 0.5f) / scale_ - 0.5f).matrix();
+    const float per_px = 1.0f / scale_;
+    const Vector2f at_px = ((full_pixel.array() + 0.5f) * per_px - 0.5f).matrix();
     if (!(at_px.x() >= 0 && at_px.y() >= 0 && at_px.x() < static_cast<float>(width_ - 1) &&
           at_px.y() < static_cast<float>(height_ - 1)))
       return false;
@@ -67,7 +68,7 @@ class BlurredImage {
     const float* const below = above + width_;
     const float left = above[0] + b * (below[0] - above[0]), right = above[1] + b * (below[1] - above[1]);
     value = left + a * (right - left);
-    slope = Vector2f(right - left, (1 - a) * (below[0] - above[0]) + a * (below[1] - above[1])) / scale_;
+    slope = Vector2f(right - left, (1 - a) * (below[0] - above[0]) + a * (below[1] - above[1])) * per_px;
     return true;
   }
 

@@ -56,7 +56,9 @@ class CoarseAlignment {
         const Estimate resting = descend(Pose::Identity(), reference_[0], camera);
         if (resting.cost < best.cost) best = resting;
       } else {
-        if (!(found.cost < step_at(expected, reference_[level], camera).cost)) return expected;
+        if (!(found.cost < cost_at(
+                               expected, reference_[level], camera, [](auto&&...) {})))
+          return expected;
         best = found;
       }
     }
@@ -136,13 +138,12 @@ class CoarseAlignment {
     Vector6d increment = Vector6d::Zero();  ///< rotation vector, translation, from the left
   };
 
-  template <class Camera>
-  Step step_at(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
-    using Row = Eigen::Matrix<float, 6, 1>;
-    Eigen::Matrix<float, 6, 6> normal = Eigen::Matrix<float, 6, 6>::Zero();
-    Row gradient = Row::Zero();
+  /// Mean loss at a pose.
+  /// @param visit  called for each point with a say: its place in the reference camera, the slope there, the gray-value
+  ///               difference, the weight
+  template <class Camera, class Visit>
+  double cost_at(const Pose& pose, const BlurredImage& image, const Camera& camera, const Visit& visit) const {
     float costs = 0, weights = 0;
-    const auto fx = static_cast<float>(camera.fx()), fy = static_cast<float>(camera.fy());
     for (const Point& point : points_) {
       const Vector3d there = pose * point.point;
       float value = 0;
@@ -157,21 +158,32 @@ class CoarseAlignment {
       const float rest = std::max(1.0f - residual * residual / (kCutoff * kCutoff), 0.0f);
       costs += prior * (1.0f - rest * rest * rest);  // Tukey's loss, scaled to 1 at the cutoff and beyond
       weights += prior;
+      if (rest > 0.0f) visit(there, slope, residual, rest * rest * prior);
+    }
+    return weights > 0 ? static_cast<double>(costs / weights) : 1.0;
+  }
+
+  template <class Camera>
+  Step step_at(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
+    // Of each point a column: its six derivatives, its residual below. Σ weight column columnᵀ holds the normal matrix
+    // and the gradient. Eight rows are two registers.
+    using Column = Eigen::Matrix<float, 8, 1>;
+    Eigen::Matrix<float, 8, 6> sums = Eigen::Matrix<float, 8, 6>::Zero();
+    const auto fx = static_cast<float>(camera.fx()), fy = static_cast<float>(camera.fy());
+    const auto add = [&](const Vector3d& there, const Vector2f& slope, float residual, float weight) {
       // ∂value / ∂there by the chain rule; there moves by ω × there + v.
       const Eigen::Vector3f at = there.cast<float>();
       const float gx = slope.x() * fx / at.z(), gy = slope.y() * fy / at.z();
       const Eigen::Vector3f g(gx, gy, -(gx * at.x() + gy * at.y()) / at.z());
-      Row row;
-      row << at.y() * g.z() - at.z() * g.y(), at.z() * g.x() - at.x() * g.z(), at.x() * g.y() - at.y() * g.x(), g;
-      const Row weighted = (rest * rest * prior) * row;
-      normal.noalias() += weighted * row.transpose();
-      gradient += residual * weighted;
-    }
+      Column column;
+      column << at.y() * g.z() - at.z() * g.y(), at.z() * g.x() - at.x() * g.z(), at.x() * g.y() - at.y() * g.x(), g,
+          residual, 0.0f;
+      for (int i = 0; i < 6; ++i) sums.col(i) += (weight * column[i]) * column;
+    };
     Step step;
-    if (!(weights > 0)) return step;
-    step.cost = static_cast<double>(costs / weights);
-    const Matrix6d held = normal.cast<double>() + kHold * Matrix6d::Identity();
-    step.increment = -held.ldlt().solve(gradient.cast<double>());
+    step.cost = cost_at(pose, image, camera, add);
+    const Matrix6d held = sums.topRows<6>().cast<double>() + kHold * Matrix6d::Identity();
+    step.increment = -held.ldlt().solve(Vector6d(sums.row(6).transpose().cast<double>()));
     return step;
   }
 

@@ -5,8 +5,11 @@
 // Corners of our own, one for each cell of a grid: support by area, not by where the texture is.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
@@ -15,6 +18,55 @@
 #include "stillpoint/core/workspace.hpp"
 
 namespace stillpoint {
+
+namespace detail {
+
+/// Column sums of the products of the gradients (twice as long) over some rows: one row comes, one goes. Of each there
+/// are three lines, xx, xy and yy, of the image's width. The first and the last column have no gradient.
+/// @param row   products of the row that goes, overwritten with those of the one that comes
+/// @param sums  of whole numbers, therefore exact
+inline void slide_down(const ImageView& image, int v, float* row, float* sums) noexcept {
+  const std::uint8_t* const above = image.row<std::uint8_t>(v - 1);
+  const std::uint8_t* const here = image.row<std::uint8_t>(v);
+  const std::uint8_t* const below = image.row<std::uint8_t>(v + 1);
+  const int width = image.width;
+  // Works on copies, which can't overlap as the compiler would have to fear of the rows.
+  const auto slide = [&](int first, auto lane) {
+    constexpr std::size_t kLane = decltype(lane)::value;
+    std::array<std::uint8_t, kLane> left, right, up, down;
+    std::memcpy(left.data(), here + first - 1, kLane);
+    std::memcpy(right.data(), here + first + 1, kLane);
+    std::memcpy(up.data(), above + first, kLane);
+    std::memcpy(down.data(), below + first, kLane);
+    std::array<std::int16_t, kLane> x, y;
+    for (std::size_t i = 0; i < kLane; ++i) {
+      x[i] = static_cast<std::int16_t>(right[i] - left[i]);
+      y[i] = static_cast<std::int16_t>(down[i] - up[i]);
+    }
+    const auto exchange = [&](int line, const auto& a, const auto& b) {
+      float* const old = row + line * width + first;
+      float* const total = sums + line * width + first;
+      std::array<float, kLane> goes, comes, sum;
+      std::memcpy(goes.data(), old, sizeof(goes));
+      std::memcpy(sum.data(), total, sizeof(sum));
+      for (std::size_t i = 0; i < kLane; ++i) {
+        comes[i] = static_cast<float>(a[i] * b[i]);
+        sum[i] += comes[i] - goes[i];
+      }
+      std::memcpy(old, comes.data(), sizeof(comes));
+      std::memcpy(total, sum.data(), sizeof(sum));
+    };
+    exchange(0, x, x);
+    exchange(1, x, y);
+    exchange(2, y, y);
+  };
+  constexpr int kLane = 16;
+  int u = 1;
+  for (; u + kLane < width; u += kLane) slide(u, std::integral_constant<std::size_t, kLane>());
+  for (; u + 1 < width; ++u) slide(u, std::integral_constant<std::size_t, 1>());
+}
+
+}  // namespace detail
 
 /// The strongest corner of each cell, by the smaller eigenvalue of the structure tensor over 5 × 5 pixels.
 /// Source: Shi and Tomasi, "Good Features to Track", CVPR 1994, Eq. (23).
@@ -36,20 +88,11 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
   };
   const span<Best> best = workspace.take<Best>(static_cast<std::size_t>(cells_across));
   // Column sums of the gradient products over 2 kRadius + 1 rows slide down the image.
-  const span<float> xx = workspace.take<float>(width), xy = workspace.take<float>(width),
-                    yy = workspace.take<float>(width), half_trace = workspace.take<float>(width),
-                    strength = workspace.take<float>(width);
-  const auto add_row = [&](int v, float sign) {
-    const std::uint8_t* const above = image.row<std::uint8_t>(v - 1);
-    const std::uint8_t* const here = image.row<std::uint8_t>(v);
-    const std::uint8_t* const below = image.row<std::uint8_t>(v + 1);
-    float *const pxx = xx.data(), *const pxy = xy.data(), *const pyy = yy.data();
-    for (int u = 1; u < columns - 1; ++u) {
-      const auto gx = static_cast<float>(here[u + 1] - here[u - 1]), gy = static_cast<float>(below[u] - above[u]);
-      pxx[u] += sign * gx * gx;
-      pxy[u] += sign * gx * gy;
-      pyy[u] += sign * gy * gy;
-    }
+  constexpr int kRows = 2 * kRadius + 1;
+  const span<float> sums = workspace.take<float>(3 * width), strength = workspace.take<float>(2 * width);
+  const span<float> products = workspace.take<float>(3 * width * kRows);
+  const auto add_row = [&](int v) {
+    detail::slide_down(image, v, products.data() + 3 * width * static_cast<std::size_t>(v % kRows), sums.data());
   };
   const auto flush = [&] {
     for (Best& cell : best) {
@@ -57,22 +100,23 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
       cell = Best{};
     }
   };
-  for (int v = kBorder - kRadius; v < kBorder + kRadius; ++v) add_row(v, 1.0f);
+  for (int v = kBorder - kRadius; v < kBorder + kRadius; ++v) add_row(v);
+  Eigen::Map<Eigen::ArrayXf> all(strength.data(), columns), half_trace(strength.data() + width, columns);
   for (int v = kBorder; v < rows - kBorder; ++v) {
-    add_row(v + kRadius, 1.0f);
-    const auto across = [](const float* sums) {  // over 2 kRadius + 1 columns
-      return [sums](int u) { return sums[u - 2] + sums[u - 1] + sums[u] + sums[u + 1] + sums[u + 2]; };
+    add_row(v + kRadius);
+    const auto across = [](const float* of) {  // over 2 kRadius + 1 columns
+      return [of](int u) { return of[u - 2] + of[u - 1] + of[u] + of[u + 1] + of[u + 2]; };
     };
-    const auto sum_xx = across(xx.data()), sum_xy = across(xy.data()), sum_yy = across(yy.data());
-    float *const mean = half_trace.data(), *const out = strength.data();
+    const auto sum_xx = across(sums.data()), sum_xy = across(sums.data() + width),
+               sum_yy = across(sums.data() + 2 * width);
+    float *const mean = half_trace.data(), *const out = all.data();
     for (int u = kBorder; u < columns - kBorder; ++u) {
       const float a = sum_xx(u), b = sum_xy(u), c = sum_yy(u);
       mean[u] = 0.5f * (a + c);
       out[u] = 0.25f * (a - c) * (a - c) + b * b;
     }
     // Eigen's roots come four at a time; std::sqrt's would one by one, because of errno.
-    Eigen::Map<Eigen::ArrayXf> all(out, columns);
-    all = Eigen::Map<const Eigen::ArrayXf>(mean, columns) - all.sqrt();
+    all = half_trace - all.sqrt();
     for (int begin = 0, end = cell_px; begin < columns; begin = end, end += cell_px) {
       Best& cell = best[static_cast<std::size_t>(begin / cell_px)];
       const int first = std::max(begin, kBorder), last = std::min(end, columns - kBorder);
@@ -80,7 +124,6 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
       for (int u = first; u < last; ++u)
         if (out[u] > cell.strength) cell = {out[u], u, v};
     }
-    add_row(v - kRadius, -1.0f);
     if ((v + 1) % cell_px == 0) flush();
   }
   flush();

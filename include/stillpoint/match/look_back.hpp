@@ -8,12 +8,15 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
 #include "stillpoint/match/older_frames.hpp"
@@ -46,6 +49,7 @@ class LookBack {
   void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
               const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
     const OlderFrameChoice choice{options.slowest_m_s, options.pixel_sigma, options.longest_s};
+    order_by_place(matches, workspace);
     survey_older_frames(choice, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
     space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
                              surfaces.scaled_step_px(camera), matches, workspace);
@@ -58,11 +62,11 @@ class LookBack {
     Matches& matches = observations.matches;
     look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.sightings.surfaces,
                       matches.sightings.frames());
-    for (std::size_t i = 0; i < matches.size(); ++i) {
+    for (const std::size_t i : matches.sightings.order) {
       if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
-        look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), history, current, camera, noise,
-             matches);
+        look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), std::numeric_limits<float>::infinity(),
+             history, current, camera, noise, matches);
       } else if (i < matches.host_count && matches.current.undistorted[i].allFinite()) {
         look_beside(i, history, current, camera, noise, matches);
       }
@@ -71,7 +75,8 @@ class LookBack {
   }
 
  private:
-  static constexpr int kFewestPixels = 25;  // of a patch's 64 that must lie on the feature's surface
+  static constexpr float kNeighbourhood_px = 32.0f;  // features in one cell of this size are looked for in a row
+  static constexpr int kFewestPixels = 25;           // of a patch's 64 that must lie on the feature's surface
   static constexpr DepthTolerance kSameSurface{};
   static constexpr int kOccluderReach_px = 8;     // what is nearer within this reach covers a part of the patch
   static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
@@ -79,8 +84,17 @@ class LookBack {
   static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
   static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
+  static constexpr float kUnlike = 1.0f;          // counts a frame in which a patch can't be compared
   static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
   static constexpr float kSearchPrecision_px = 0.2f;
+
+  static void order_by_place(Matches& matches, Workspace& workspace) {
+    const Workspace::Scope scope(workspace);
+    const PixelGrid grid(matches.current.pixel, kNeighbourhood_px, workspace, [](std::size_t) { return true; });
+    std::vector<std::uint32_t>& order = matches.sightings.order;
+    order.resize(grid.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) order[rank] = static_cast<std::uint32_t>(grid.index(rank));
+  }
 
   /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
   /// surfaces beside it. Taken is where it looks most as if it stood.
@@ -106,45 +120,62 @@ class LookBack {
       const double supposed_spread = supposed > 1 ? kSupposedSpread : kBridgedSpread;
       return c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
     };
-    std::size_t best = 0, last = count;
+    const span<OlderFrame> frames = matches.sightings.frames();
+    std::array<Sighting, OlderFrameChoice::kLooks> least_unlike;
+    std::size_t best = count;
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t c = count; c-- > 0;) {
-      const float dissimilarity = look(i, candidates[c], spread_of(c), history, current, camera, noise, matches);
-      last = c;
+      const float dissimilarity = look(i, candidates[c], spread_of(c), least, history, current, camera, noise, matches);
       if (!(dissimilarity < least)) continue;
       least = dissimilarity;
       best = c;
-      if (clearly_stands(i, matches.sightings.frames())) break;
+      if (clearly_stands(i, frames)) return;
+      for (std::size_t f = 0; f < frames.size(); ++f) least_unlike[f] = frames[f].of_feature[i];
     }
-    if (best != last) look(i, candidates[best], spread_of(best), history, current, camera, noise, matches);
+    if (best == count) return;
+    suppose(i, candidates[best], spread_of(best), camera, matches);
+    for (std::size_t f = 0; f < frames.size(); ++f) frames[f].of_feature[i] = least_unlike[f];
+  }
+
+  /// What is looked for: the feature at a depth.
+  template <class Camera>
+  static void suppose(std::size_t i, double depth_m, double inverse_depth_sigma, const Camera& camera,
+                      Matches& matches) {
+    matches.sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
+    matches.sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
   }
 
   /// Looks for a feature in every older frame.
+  /// @param most  of the sum that is returned: where it can't be less any more, looking ends
   /// @return how dissimilar it is, summed over the frames; one where it can't be compared counts as unlike
   template <class Camera, class Noise>
-  float look(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
+  float look(std::size_t i, double depth_m, double inverse_depth_sigma, float most, const FrameHistory& history,
              const FrameView& current, const Camera& camera, const Noise& noise, Matches& matches) const {
     Sightings& sightings = matches.sightings;
-    sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
-    sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
+    suppose(i, depth_m, inverse_depth_sigma, camera, matches);
     Patch patch;
     const Vector2f centre = rounded(matches.current.pixel[i]);
     const bool textured = cut_patch(current.gray, centre,
                                     PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
                           patch.count >= kFewestPixels;
     const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
+    float dissimilarity = 0;
     const auto look_at = [&](OlderFrame& older) {
       Sighting& sighting = older.of_feature[i];
       sighting = look_in(history.back(older.age).view(), older.reference_from_current, point,
                          inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
+      dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : kUnlike;
     };
     const span<OlderFrame> frames = sightings.frames();
-    look_in_older_frames(i, frames, i >= matches.host_count, look_at);
-    float dissimilarity = 0;
+    look_in_older_frames(i, frames, i >= matches.host_count, [&](OlderFrame& older) {
+      look_at(older);
+      return dissimilarity < most;
+    });
+    dissimilarity = 0;
     for (const OlderFrame& older : frames) {
       const Sighting& sighting = older.of_feature[i];
-      dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : 1.0f;
+      dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : kUnlike;
     }
     return dissimilarity;
   }

@@ -119,15 +119,17 @@ inline bool clearly_stands(std::size_t i, span<const OlderFrame> frames) noexcep
   return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
 }
 
-/// Calls `look_at(frame)`, which fills the sighting of feature `i`, for the last frame, then for the oldest, then for
-/// those between, unless it clearly stands.
+/// Calls `bool look_at(frame)`, which fills the sighting of feature `i` and says whether to go on, for the last frame,
+/// then for the oldest, then for those between, unless it clearly stands.
 /// @param in_all  in those between in any case
 template <class LookAt>
 void look_in_older_frames(std::size_t i, span<OlderFrame> frames, bool in_all, const LookAt& look_at) {
   for (OlderFrame& older : frames) older.of_feature[i] = Sighting{};
-  if (!frames.empty()) look_at(frames[0]);
-  for (std::size_t f = frames.size(); f-- > 1;)
-    if (f + 1 == frames.size() || in_all || !clearly_stands(i, frames)) look_at(frames[f]);
+  if (frames.empty() || !look_at(frames[0])) return;
+  for (std::size_t f = frames.size(); f-- > 1;) {
+    const bool is_needed = f + 1 == frames.size() || in_all || !clearly_stands(i, frames);
+    if (is_needed && !look_at(frames[f])) return;
+  }
 }
 
 }  // namespace stillpoint

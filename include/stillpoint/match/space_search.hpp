@@ -102,7 +102,7 @@ class SpaceSearch {
     for (int round = 0; round < kSpreadCells; ++round) {
       for (std::size_t s = 0; s < cells.size(); ++s)
         next[s] = side[s] == Side::nobody_knows ? majority(cells[s].pixel, cells[s].point.z()) : side[s];
-      if (std::equal(next.begin(), next.end(), side.begin())) break;
+      if (std::equal(next.begin(), next.end(), side.begin())) break;  // all who can know do
       std::copy(next.begin(), next.end(), side.begin());
     }
     for (std::size_t i = matches.host_count; i < matches.size(); ++i)

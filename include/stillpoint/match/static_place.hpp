@@ -4,9 +4,11 @@
 
 // Where does a past frame show a point that stands still, and which depth is measured there?
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
@@ -58,26 +60,44 @@ struct PlaceTest {
   }
 };
 
+namespace detail {
+
+/// Is a pixel of a 3 × 3 grid with such a spacing nearer? Depths are in the units of the image; what would lie outside
+/// is taken at the border.
+template <class Depth>
+bool any_nearer(const ImageView& depth, int u, int v, int across, int down, Depth nearer_than) noexcept {
+  const auto inside = [](int at, int size) { return std::min(std::max(at, 0), size - 1); };
+  const int left = inside(u - across, depth.width), middle = inside(u, depth.width),
+            right = inside(u + across, depth.width);
+  const auto in_row = [&](int at) {
+    const Depth* const row = depth.row<Depth>(inside(at, depth.height));
+    const auto is_nearer = [nearer_than](Depth there) { return (there > 0) & (there < nearer_than); };
+    return is_nearer(row[left]) || is_nearer(row[middle]) || is_nearer(row[right]);
+  };
+  return in_row(v - down) || in_row(v) || in_row(v + down);
+}
+
+}  // namespace detail
+
 /// Does something nearer lie within reach of a pixel? What a mover has just uncovered looks changed and stood still.
 inline bool beside_occluder(const FrameView& frame, const Vector2f& pixel, double nearer_than_m,
                             int reach_px) noexcept {
   if (frame.depth.empty() || reach_px <= 0) return false;
-  const DepthScale to_depth(frame.gray, frame.depth.image);
-  for (const int ring_px : {(reach_px + 1) / 2, reach_px}) {
-    std::array<int, 3> u, v;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector2f at = to_depth(pixel.array() + static_cast<float>((static_cast<int>(k) - 1) * ring_px));
-      u[k] = rounded(at.x());
-      v[k] = rounded(at.y());
-    }
-    for (const int row : v) {
-      for (const int column : u) {
-        const double depth_m = frame.depth.image.contains(column, row) ? frame.depth.metres(column, row) : 0.0;
-        if (depth_m > 0 && depth_m < nearer_than_m) return true;
-      }
-    }
-  }
-  return false;
+  const ImageView& depth = frame.depth.image;
+  const DepthScale to_depth(frame.gray, depth);
+  const Vector2f at = to_depth(pixel);
+  const int u = rounded(at.x()), v = rounded(at.y());
+  constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
+  const auto nearer_than =
+      static_cast<std::uint16_t>(std::clamp(std::ceil(nearer_than_m * frame.depth.factor), 0.0, kMost));
+  const auto is_near = [&](int ring_px) {
+    const int across = std::max(1, rounded(to_depth.x * static_cast<float>(ring_px)));
+    const int down = std::max(1, rounded(to_depth.y * static_cast<float>(ring_px)));
+    return depth.format == PixelFormat::depth16
+               ? detail::any_nearer(depth, u, v, across, down, nearer_than)
+               : detail::any_nearer(depth, u, v, across, down, static_cast<float>(nearer_than_m));
+  };
+  return is_near((reach_px + 1) / 2) || is_near(reach_px);
 }
 
 /// A length that options give for a focal length of 525 px, in whole pixels of this camera.

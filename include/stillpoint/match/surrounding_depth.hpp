@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
