@@ -189,8 +189,8 @@ class ProvidedMatches {
       if (sighting.offset_px > options.objection_px && !(observations.remembered.log_odds[i] > options.known_log_odds))
         examine(patch, current, past, place, camera, sighting);
     };
-    look_in_older_frames(i, sightings.frames(), false, [&](OlderFrame& older) {
-      look_at(older);
+    look_in_older_frames(i, sightings.frames(), false, [&](OlderFrame& frame) {
+      look_at(frame);
       return true;
     });
     return sum_px;
