@@ -33,6 +33,7 @@ class EvidenceMemoryTest : public testing::Test {
 
   EvidenceMemoryTest() {
     memory_.options.log_odds_decay_s = kElapsed_s / std::log(2.0);
+    memory_.caution = 0.0f;
     memory_.options.suspicion_rise_s = 1e-6;
     memory_.options.suspicion_decay_s = kElapsed_s / std::log(1.0 / 0.9);
   }
@@ -188,6 +189,18 @@ TEST_F(EvidenceMemoryTest, AFeatureThatNobodyFollowedIsLookedUpWhereItsSurfaceWa
     recall();
     EXPECT_NEAR(remembered_.log_odds[0] * 0.5f, recalled, kRounding) << corner_depth_m;
   }
+}
+
+// Of the log-odds' memory 1 / (1 − 1/2) = 2 frames count. At 30 Hz, a third of the interval, 1 / (1 − 2^(−1/3)) = 4.847
+// would: ln(4.847 / 2) = 0.885.
+TEST_F(EvidenceMemoryTest, FewerFramesNeedStrongerEvidence) {
+  memory_.caution = 0.5f;
+  frame(1.0f);
+  EXPECT_NEAR(labels_[0].log_odds, 1.0f - 0.5f * 0.885f, 1e-3f);
+  memory_.reset();
+  elapsed_s_ = 1.0 / 60.0;
+  frame(1.0f);
+  EXPECT_NEAR(labels_[0].log_odds, 1.0f, kRounding) << "more frames need no weaker";
 }
 
 TEST_F(EvidenceMemoryTest, ResetForgets) {
