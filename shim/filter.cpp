@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <new>
+#include <optional>
 #include <stillpoint/stillpoint.hpp>
 #include <stillpoint_shim/types.hpp>
 #include <string>
@@ -31,7 +32,7 @@ stillpoint::AnyDistortion distortion_of(const Camera& camera) {
   return {};
 }
 
-stillpoint::AnyDepthNoise depth_noise_of(const Camera& camera, const Settings& settings) {
+stillpoint::AnyDepthNoise depth_noise_of(double fx_px, const Settings& settings) {
   const int model = static_cast<int>(settings.depth_noise);
   require(model >= 0 && model <= 2, "settings: depth_noise", model, "one of stillpoint_shim::DepthNoise");
   if (settings.depth_noise == DepthNoise::kinect) return stillpoint::KinectNoise{};
@@ -40,13 +41,27 @@ stillpoint::AnyDepthNoise depth_noise_of(const Camera& camera, const Settings& s
   require(baseline_m > 0 && std::isfinite(baseline_m), "settings: stereo_baseline_m", baseline_m, "a length in metres");
   require(sigma_px > 0 && std::isfinite(sigma_px), "settings: stereo_disparity_sigma_px", sigma_px,
           "a positive number of pixels");
-  return stillpoint::StereoNoise{camera.fx, baseline_m, sigma_px};
+  return stillpoint::StereoNoise{fx_px, baseline_m, sigma_px};
 }
 
 stillpoint::ImageView view(const detail::Image& image) {
   if (image.data == nullptr) return {};
   return {image.data, image.columns, image.rows, image.stride_bytes,
           stillpoint::image_traits<cv::Mat>::format(image.type)};
+}
+
+/// Nothing where the matrix, 4 x 4 row by row, is no rigid motion.
+std::optional<stillpoint::Pose> rigid_motion(const double* rows) {
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(rows);
+  constexpr double kRounding = 1e-3;  // of poses that a host keeps in single precision
+  const stillpoint::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  if (!matrix.allFinite() || !(rotation * rotation.transpose()).isIdentity(kRounding) ||
+      !(rotation.determinant() > 0) || !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kRounding))
+    return std::nullopt;
+  stillpoint::Pose pose = stillpoint::Pose::Identity();
+  pose.linear() = rotation;
+  pose.translation() = matrix.topRightCorner<3, 1>();
+  return stillpoint::orthonormalized(pose);
 }
 
 stillpoint::Mobility mobility(Mobility mobility) {
@@ -65,14 +80,20 @@ namespace detail {
 class Engine {
  public:
   Engine(const Camera& camera, const Settings& settings)
-      : filter_({camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height, distortion_of(camera)}),
-        depth_factor_(settings.depth_factor) {
-    const double rate = settings.false_positive_rate;
-    require(depth_factor_ > 0 && std::isfinite(depth_factor_), "settings: depth_factor", depth_factor_,
-            "a positive number of units per metre");
+      : filter_({camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height, distortion_of(camera)}) {
+    change_settings(settings);
+  }
+
+  /// Changes all of them or, where it throws, none.
+  void change_settings(const Settings& settings) {
+    const double rate = settings.false_positive_rate, factor = settings.depth_factor;
+    require(factor >= 0 && std::isfinite(factor), "settings: depth_factor", factor,
+            "units per metre: 1000 for millimetres, 5000 for TUM's files, 0 without 16-bit depth");
     require(rate >= 1e-6 && rate <= 0.5, "settings: false_positive_rate", rate, "1e-6 to 0.5");
     require(settings.fewest_features >= 0, "settings: fewest_features", settings.fewest_features, "0 or more");
-    filter_.depth_noise = depth_noise_of(camera, settings);
+    const stillpoint::AnyDepthNoise noise = depth_noise_of(filter_.camera.fx(), settings);
+    depth_factor_ = factor;
+    filter_.depth_noise = noise;
     filter_.gate.options.false_positive_rate = rate;
     filter_.keep_floor.options.fewest_features = static_cast<std::size_t>(settings.fewest_features);
   }
@@ -88,6 +109,11 @@ class Engine {
     result_ = nullptr;  // until there is one of this frame
     result_ = &filter_.filter_frame({view(image), {view(depth), depth_factor_}, timestamp_s}, pixels_);
     return *result_;
+  }
+
+  /// 16-bit depth, and nobody has said in which units?
+  bool lacks_depth_factor(const Image& depth) const noexcept {
+    return depth.data != nullptr && depth.type == CV_16UC1 && depth_factor_ == 0;
   }
 
   void copy_weights(float* weights, std::size_t size) const {
@@ -106,6 +132,9 @@ class Engine {
     filter_.predicted_keep_mask(timestamp_s, std::max(margin_px, 0), mask_);
     copy_mask(pixels);
   }
+
+  /// The last frame has no answer: weights and mask keep all of it.
+  void forget_result() noexcept { result_ = nullptr; }
 
   /// All is kept.
   void fill(const Pixels& pixels) const noexcept {
@@ -128,17 +157,15 @@ class Engine {
   }
 
   bool feedback(const double* world_from_camera) {
-    const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(world_from_camera);
-    constexpr double kRounding = 1e-3;  // of poses that a host keeps in single precision
-    const stillpoint::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-    if (!matrix.allFinite() || !(rotation * rotation.transpose()).isIdentity(kRounding) ||
-        !(rotation.determinant() > 0) || !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kRounding))
-      return false;
-    stillpoint::Pose pose = stillpoint::Pose::Identity();
-    pose.linear() = rotation;
-    pose.translation() = matrix.topRightCorner<3, 1>();
-    filter_.feedback(stillpoint::orthonormalized(pose));
-    return true;
+    const std::optional<stillpoint::Pose> pose = rigid_motion(world_from_camera);
+    if (pose) filter_.feedback(*pose);
+    return pose.has_value();
+  }
+
+  bool expect_motion(const double* current_from_reference) {
+    const std::optional<stillpoint::Pose> motion = rigid_motion(current_from_reference);
+    if (motion) filter_.expect_motion(*motion);
+    return motion.has_value();
   }
 
   void reset() {
@@ -155,7 +182,7 @@ class Engine {
   }
 
   stillpoint::FrameFilter<> filter_;
-  double depth_factor_;
+  double depth_factor_ = 0;  // 0: not said
   std::vector<stillpoint::Vector2f> pixels_;
   stillpoint::ImageBuffer mask_;
   const stillpoint::FrameResult* result_ = nullptr;  // the filter's, of the last frame
@@ -170,9 +197,23 @@ Engine* create(const Camera& camera, const Settings& settings, char* message, st
 
 void destroy(Engine* engine) noexcept { delete engine; }
 
+bool change_settings(Engine& engine, const Settings& settings, char* message, std::size_t message_size) noexcept try {
+  engine.change_settings(settings);
+  return true;
+} catch (const std::exception& error) {
+  std::snprintf(message, message_size, "stillpoint: %s", error.what());
+  return false;
+}
+
 // What can be thrown from here on is std::bad_alloc. A frame then keeps everything and the filter begins anew.
 const char* filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s,
                          const Points& points, unsigned char* keep, bool& judged) noexcept try {
+  if (engine.lacks_depth_factor(depth)) {
+    std::fill_n(keep, points.count, static_cast<unsigned char>(1));
+    judged = false;
+    engine.forget_result();
+    return "no_depth_factor: 16-bit depth needs Settings::depth_factor, 1000 for millimetres, 5000 for TUM's files";
+  }
   const stillpoint::FrameResult& result = engine.filter_frame(image, depth, timestamp_s, points);
   std::copy(result.keep().begin(), result.keep().end(), keep);
   judged = stillpoint::judged(result.status());
@@ -208,6 +249,10 @@ void set_boxes(Engine& engine, const Box* boxes, std::size_t count, const double
 }
 
 bool feedback(Engine& engine, const double* world_from_camera) noexcept { return engine.feedback(world_from_camera); }
+
+bool expect_motion(Engine& engine, const double* current_from_reference) noexcept {
+  return engine.expect_motion(current_from_reference);
+}
 
 void reset(Engine& engine) noexcept { engine.reset(); }
 

@@ -36,7 +36,7 @@ allowed() {
     options) rule='options/ includes core/, io/, the pipeline and the stages'
       printf '%s\n' "$std" "$opencv" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
         '"stillpoint/policies.hpp"' "${stages[@]}" ;;
-    version.hpp) rule='version.hpp includes nothing' ;;
+    version.hpp | fwd.hpp) rule="$1 includes nothing" ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
       printf '%s\n' "$std" "$opencv" "$core*\"" ;;
     policies.hpp) rule='policies.hpp includes core/ and the stages'
@@ -44,7 +44,8 @@ allowed() {
     stillpoint.hpp) rule='stillpoint.hpp includes neither io/, detectors/, adapters/, evaluation/ nor synthetic/'
       printf '%s\n' "$std" "$core*\"" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' ;;
     *.hpp) rule='a header beside filter_frame.hpp includes core/ and headers of that folder'
-      printf '%s\n' "$std" "$core*\"" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' "$bridge" ;;
+      printf '%s\n' "$std" "$core*\"" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' '"stillpoint/fwd.hpp"' \
+        "$bridge" ;;
     *) rule="the folder $folder/ is not known to tests/structure/include_rules.sh: say there what it may include" ;;
   esac
 }

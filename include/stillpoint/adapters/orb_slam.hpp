@@ -8,7 +8,10 @@
 //   extractor   erase_masked_candidates, features_to_extract   before the features are chosen
 //   hook B      compact_after_extraction                       right after ExtractORB, before N is set
 //   hook A      compact_after_depth                            after ComputeStereoFromRGBD, before mvpMapPoints
+//   hook C      compact_frame                                  in Tracking, between the Frame and Track()
 //   optimiser   weighted_inv_sigma2                            where drops are not wanted
+//
+// docs/hosts/orb_slam3.diff is the whole change of a host by hook C.
 //
 // A Frame without features is half-initialised: flags that would drop all drop none.
 
@@ -63,6 +66,12 @@ struct FrameWithDepth {
   static_assert(!kDepth || holds, "stillpoint: an ORB-SLAM Frame must have N, the number of key points; see adapters/orb_slam.hpp");
 };
 // clang-format on
+
+/// What hook C touches beside that.
+template <class Frame>
+constexpr bool is_finished_frame = offers<Frame>([](auto& frame) -> decltype(  //
+                                                                     void(frame.mvpMapPoints), void(frame.mvbOutlier),
+                                                                     void(frame.mGrid[0][0].size())) {});
 
 }  // namespace detail
 
@@ -128,6 +137,41 @@ std::size_t compact_mono_first(span<const std::uint8_t> keep, Keypoints& keypoin
       detail::compact_unless_all(keep, host_array("key points", keypoints), host_array("descriptors", descriptors));
   if (kept_count(keep) > 0) mono_count = static_cast<int>(kept_count(keep.first(static_cast<std::size_t>(mono_count))));
   return kept;
+}
+
+/// Hook C: compacts a finished Frame, so that the host's Frame need not know the filter: the arrays of hook A,
+/// mvpMapPoints and mvbOutlier together, in order; mGrid gets the new indices, N the new number. The Frame is as if
+/// hook A had compacted it while it was made. Call it between `mCurrentFrame = Frame(...)` and `Track()`.
+/// @param keep   one byte a keypoint, 0 drops; all 0 drops none
+/// @param frame  the host's Frame, of one RGB-D camera
+/// @param more   arrays of a fork with one entry a keypoint
+/// @return the new N
+/// @throws Error as `compact_after_depth`. O(N), one allocation.
+template <class Frame, class... MoreArrays>
+std::size_t compact_frame(span<const std::uint8_t> keep, Frame& frame, MoreArrays&... more) {
+  static_assert(detail::is_finished_frame<Frame>,
+                "stillpoint: an ORB-SLAM Frame must have mvpMapPoints, mvbOutlier and mGrid, columns of rows of "
+                "indices; see adapters/orb_slam.hpp");
+  if constexpr (detail::is_finished_frame<Frame>) {
+    require_aligned_host_arrays("orb_slam", keep, host_array("mvpMapPoints", frame.mvpMapPoints),
+                                host_array("mvbOutlier", frame.mvbOutlier));
+    const std::size_t kept = compact_after_depth(keep, frame, more...);
+    if (kept == keep.size()) return kept;
+    compact(keep, frame.mvpMapPoints, frame.mvbOutlier);
+    std::vector<int> old_to_new;
+    compaction_map(keep, old_to_new);
+    for (auto& column : frame.mGrid) {
+      for (auto& cell : column) {
+        std::size_t left = 0;
+        for (const std::size_t index : cell)
+          if (old_to_new[index] >= 0) cell[left++] = static_cast<std::size_t>(old_to_new[index]);
+        cell.resize(left);
+      }
+    }
+    return kept;
+  } else {
+    return 0;
+  }
 }
 
 /// How much must be left for the host. Tracking::StereoInitialization wants more than 500 features, counted with and

@@ -20,16 +20,29 @@ class Filter {
  public:
   /// @throws std::invalid_argument that names the field, the value found and what was expected
   explicit Filter(const Camera& camera, const Settings& settings = Settings())
-      : width_(camera.width), height_(camera.height) {
+      : width_(camera.width), height_(camera.height), settings_(settings) {
     char message[512] = "";
     engine_.reset(detail::create(camera, settings, message, sizeof(message)));
     if (!engine_) throw std::invalid_argument(message);
   }
 
+  /// What the filter works with.
+  const Settings& settings() const { return settings_; }
+
+  /// Changes them between two frames; nothing that was seen is forgotten. As an example, a host lowers
+  /// `fewest_features` once its map has begun.
+  /// @throws std::invalid_argument as the constructor; then none of them has changed
+  void change_settings(const Settings& settings) {
+    char message[512] = "";
+    if (!detail::change_settings(*engine_, settings, message, sizeof(message))) throw std::invalid_argument(message);
+    settings_ = settings;
+  }
+
   /// Judges the key points of a frame. Call it before the tracker, with frames in the order of time. Throws nothing but
   /// std::bad_alloc.
   /// @param image        CV_8UC1, or CV_8UC3 (BGR); as the camera gives it, that is distorted
-  /// @param depth        CV_16UC1 in units of `depth_factor`, or CV_32FC1 in metres; empty where there is none
+  /// @param depth        CV_16UC1 in units of `Settings::depth_factor`, or CV_32FC1 in metres; empty where there is
+  /// none
   /// @param timestamp_s  seconds
   /// @param keypoints    pixels of the image as it is
   /// @return             valid until the next call. A frame that can't be judged keeps everything, its status says why.
@@ -61,8 +74,8 @@ class Filter {
   /// that extracts features under a mask, so that its budget goes to what stands still; all of it is 255 where the last
   /// frame was not judged. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
-  /// @param margin_px    more is dropped around what moves; an extractor's patch should not reach into it
-  void predicted_keep_mask(double timestamp_s, cv::Mat& mask, int margin_px = 12) const {
+  /// @param margin_px    more is dropped around what moves; 8 in all measured figures (docs/adopting.md)
+  void predicted_keep_mask(double timestamp_s, cv::Mat& mask, int margin_px = 8) const {
     detail::paint_predicted_keep_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
   }
 
@@ -79,6 +92,13 @@ class Filter {
   /// @param world_from_camera  4 x 4, row by row, metres; ORB-SLAM's Tcw is its inverse
   /// @return                   false if it is no rigid motion; then it is not taken
   bool feedback(const double (&world_from_camera)[16]) { return detail::feedback(*engine_, world_from_camera); }
+
+  /// What an IMU or wheels say of the coming motion; holds for the next frame.
+  /// @param current_from_reference  4 x 4, row by row, metres: from the camera of the last frame to that of the next
+  /// @return                        false if it is no rigid motion; then it is not taken
+  bool expect_motion(const double (&current_from_reference)[16]) {
+    return detail::expect_motion(*engine_, current_from_reference);
+  }
 
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
   void reset() {
@@ -112,6 +132,7 @@ class Filter {
   }
 
   int width_, height_;
+  Settings settings_;
   std::unique_ptr<detail::Engine, Destroy> engine_;
   Result result_;
 };

@@ -45,7 +45,10 @@ enum class DepthNoise : int {
 
 /// Settings of a filter; the defaults are those of the library.
 struct Settings {
-  double depth_factor = 5000;  ///< units of a 16-bit depth image per metre; a float image is in metres
+  /// Units of a 16-bit depth image per metre: 1000 for millimetres (ROS, RealSense, Azure Kinect), 5000 for TUM's
+  /// files. There is no default: with 0, a frame with 16-bit depth is not judged. A float image is in metres and needs
+  /// none.
+  double depth_factor = 0;
   DepthNoise depth_noise = DepthNoise::kinect;
   double stereo_baseline_m = 0;            ///< for `DepthNoise::stereo` alone
   double stereo_disparity_sigma_px = 0.3;  ///< likewise
@@ -73,7 +76,8 @@ struct Result {
   std::vector<unsigned char> keep;     ///< one byte a key point, in their order: 1 keep, 0 drop
   std::size_t kept_count = 0;          ///< how many are 1
   bool judged = false;                 ///< false: the frame could not be judged, everything is kept
-  const char* status = "first_frame";  ///< why: `to_string` of core/status.hpp, or "failed"; never freed
+  const char* status = "first_frame";  ///< why: `to_string` of core/status.hpp, "failed", or
+                                       ///< "no_depth_factor: ..."; never freed
 };
 
 namespace detail {
@@ -107,6 +111,9 @@ class Engine;
 STILLPOINT_SHIM_API Engine* create(const Camera& camera, const Settings& settings, char* message,
                                    std::size_t message_size) noexcept;
 STILLPOINT_SHIM_API void destroy(Engine* engine) noexcept;
+/// False with a message where the settings are wrong; then none has changed.
+STILLPOINT_SHIM_API bool change_settings(Engine& engine, const Settings& settings, char* message,
+                                         std::size_t message_size) noexcept;
 /// Writes `points.count` bytes; returns the status.
 STILLPOINT_SHIM_API const char* filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s,
                                              const Points& points, unsigned char* keep, bool& judged) noexcept;
@@ -121,6 +128,7 @@ STILLPOINT_SHIM_API void set_boxes(Engine& engine, const Box* boxes, std::size_t
                                    const double* timestamp_s) noexcept;
 /// 4 x 4, row by row; false if it is no rigid motion.
 STILLPOINT_SHIM_API bool feedback(Engine& engine, const double* world_from_camera) noexcept;
+STILLPOINT_SHIM_API bool expect_motion(Engine& engine, const double* current_from_reference) noexcept;
 STILLPOINT_SHIM_API void reset(Engine& engine) noexcept;
 STILLPOINT_SHIM_API Mobility mobility_of(const char* class_name) noexcept;
 

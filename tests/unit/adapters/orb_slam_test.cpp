@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
+#include "unit/adapters/finished_orb_frame.hpp"
 #include "unit/adapters/look_alikes.hpp"
 #include "unit/adapters/tagged_arrays.hpp"
 #include "unit/error_of.hpp"
@@ -54,6 +55,33 @@ TEST(OrbSlam, AFrameOfTwoFisheyesIsSentToTheOtherHook) {
       error_of([&] { orb_slam::compact_after_depth(Flags(4, 1), frame); }),
       "orb_slam: mvKeysUn is empty, which is so in a Frame of two fisheye cameras; expected one entry a key point, "
       "or compact_mono_first for each camera after extraction");
+}
+
+TEST(OrbSlam, AFinishedFrameIsAsIfMadeOfWhatIsKept) {
+  look_alikes::FinishedOrbFrame frame(200);
+  Flags keep(200);
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = i % 3 != 1;
+  std::vector<int> labels(200);
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = static_cast<int>(i);
+  EXPECT_EQ(orb_slam::compact_frame(keep, frame, labels), 133u);
+  EXPECT_EQ(frame.N, 133);
+  EXPECT_EQ(labels.size(), 133u);
+  EXPECT_EQ(frame.mvKeys[2].class_id, 3);
+  EXPECT_TRUE(frame.is_consistent());
+  EXPECT_EQ(orb_slam::compact_frame(Flags(133, 1), frame), 133u);
+  EXPECT_EQ(orb_slam::compact_frame(Flags(133, 0), frame), 133u) << "never empty";
+  EXPECT_TRUE(frame.is_consistent());
+}
+
+TEST(OrbSlam, AFinishedFrameWithOneWrongArrayIsLeftAlone) {
+  look_alikes::FinishedOrbFrame frame(4);
+  frame.mvbOutlier.pop_back();
+  EXPECT_EQ(error_of([&] {
+              orb_slam::compact_frame(Flags{1, 0, 1, 1}, frame);
+            }),
+            "orb_slam: mvbOutlier has 3 entries, expected one for each of the 4 keep flags");
+  EXPECT_EQ(frame.mvKeys.size(), 4u);
+  EXPECT_EQ(frame.N, 4);
 }
 
 TEST(OrbSlam, TheCountOfMonocularKeyPointsFollows) {

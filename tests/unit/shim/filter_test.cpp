@@ -214,6 +214,126 @@ TEST(ShimFilter, FeedbackTakesRigidMotionsAlone) {
   EXPECT_FALSE(filter.feedback({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1})) << "column by column";
 }
 
+TEST(ShimFilter, SixteenBitDepthHasNoDefaultFactor) {
+  stillpoint_shim::Filter filter(camera());
+  Scene scene;
+  cv::Mat mask, depth_m;
+  for (int frame = 0; frame < 2; ++frame) {
+    scene.show(frame);
+    filter.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints);
+    EXPECT_FALSE(filter.result().judged);
+    EXPECT_STREQ(
+        filter.result().status,
+        "no_depth_factor: 16-bit depth needs Settings::depth_factor, 1000 for millimetres, 5000 for TUM's files");
+    EXPECT_EQ(filter.result().keep, Flags(scene.keypoints.size(), 1));
+  }
+  filter.mask(mask);
+  EXPECT_EQ(cv::countNonZero(mask != 255), 0);
+  for (int frame = 2; frame < 4; ++frame) {  // metres need none; the frames before were none
+    scene.show(frame);
+    scene.depth.convertTo(depth_m, CV_32F, 1e-3);
+    filter.filter_frame(scene.gray, depth_m, scene.timestamp_s, scene.keypoints);
+    EXPECT_STREQ(filter.result().status, frame == 2 ? "first_frame" : "ok");
+  }
+  filter.change_settings(millimetres());
+  scene.show(4);
+  EXPECT_STREQ(filter.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints).status, "ok");
+}
+
+// Each setting that is changed between frames reaches its stage: the same bytes as the library, in which it is changed,
+// too.
+TEST(ShimFilter, SettingsChangeBetweenFrames) {
+  stillpoint_shim::Settings settings = millimetres();
+  settings.fewest_features = 520;  // more than stand still
+  stillpoint_shim::Filter shim(camera(), settings);
+  stillpoint::FrameFilter<> filter(stillpoint::Camera(200, 200, 159.5, 119.5, 320, 240));
+  filter.keep_floor.options.fewest_features = 520;
+  EXPECT_EQ(shim.settings().fewest_features, 520);
+
+  Scene scene;
+  double factor = 1000;
+  for (int frame = 0; frame < 8; ++frame) {
+    scene.show(frame);
+    if (frame == 4) {  // the map has begun
+      settings.fewest_features = 50;
+      settings.false_positive_rate = 0.05;
+      settings.depth_noise = stillpoint_shim::DepthNoise::stereo;
+      settings.stereo_baseline_m = 0.12;
+      filter.keep_floor.options.fewest_features = 50;
+      filter.gate.options.false_positive_rate = 0.05;
+      filter.depth_noise = stillpoint::StereoNoise{200, 0.12, 0.3};
+    } else if (frame == 6) {
+      settings.depth_factor = factor = 2000;
+    }
+    shim.change_settings(settings);
+    scene.depth.convertTo(scene.depth, -1, factor / 1000);
+    const stillpoint_shim::Result& found =
+        shim.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints);
+    const stillpoint::FrameResult& expected =
+        filter.filter_frame({scene.gray, {scene.depth, factor}, scene.timestamp_s}, scene.keypoints);
+    EXPECT_STREQ(found.status, stillpoint::to_string(expected.status())) << frame;
+    EXPECT_EQ(found.keep, Flags(expected.keep().begin(), expected.keep().end())) << frame;
+    EXPECT_STREQ(found.status, frame == 0 ? "first_frame" : frame == 3 ? "keep_floor" : found.status);
+  }
+  EXPECT_STREQ(shim.result().status, "ok") << "nothing was forgotten, and the floor is lower";
+  EXPECT_LT(shim.result().kept_count, 520u);
+}
+
+TEST(ShimFilter, ARefusedChangeChangesNothing) {
+  stillpoint_shim::Settings settings = millimetres();
+  settings.fewest_features = 520;
+  stillpoint_shim::Filter filter(camera(), settings);
+  const auto refusal = [&](const stillpoint_shim::Settings& wrong) -> std::string {
+    try {
+      filter.change_settings(wrong);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  stillpoint_shim::Settings wrong = settings;
+  wrong.depth_factor = 0;
+  wrong.fewest_features = -1;
+  EXPECT_EQ(refusal(wrong), refusal_of(camera(), wrong)) << "the checks are the constructor's";
+  wrong.fewest_features = 5;
+  wrong.depth_noise = stillpoint_shim::DepthNoise::stereo;  // without a baseline
+  EXPECT_EQ(refusal(wrong), "stillpoint: settings: stereo_baseline_m is 0.000000, expected a length in metres");
+  EXPECT_EQ(filter.settings().fewest_features, 520);
+  EXPECT_EQ(filter.settings().depth_factor, 1000);
+  Scene scene;
+  for (int frame = 0; frame < 6; ++frame) {
+    scene.show(frame);
+    filter.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints);
+  }
+  EXPECT_STREQ(filter.result().status, "keep_floor");
+}
+
+// An expectation that is far off must be seen in the answer, or it does not arrive.
+TEST(ShimFilter, AnExpectedMotionArrives) {
+  stillpoint_shim::Filter shim(camera(), millimetres());
+  stillpoint::FrameFilter<> filter(stillpoint::Camera(200, 200, 159.5, 119.5, 320, 240));
+  Scene scene;
+  const double rows[16] = {1, 0, 0, 0.02, 0, 1, 0, -0.01, 0, 0, 1, 0.005, 0, 0, 0, 1};
+  for (int frame = 0; frame < 6; ++frame) {
+    scene.show(frame);
+    if (frame > 0) {
+      EXPECT_TRUE(shim.expect_motion(rows));
+      filter.expect_motion(stillpoint::Pose(Eigen::Translation3d(0.02, -0.01, 0.005)));
+    }
+    const stillpoint_shim::Result& found =
+        shim.filter_frame(scene.gray, scene.depth, scene.timestamp_s, scene.keypoints);
+    const stillpoint::FrameResult& expected =
+        filter.filter_frame({scene.gray, {scene.depth, 1000.0}, scene.timestamp_s}, scene.keypoints);
+    EXPECT_EQ(found.keep, Flags(expected.keep().begin(), expected.keep().end())) << frame;
+    std::vector<float> weights, expected_weights;
+    shim.weights(weights);
+    stillpoint::weights(expected, expected_weights);
+    EXPECT_EQ(weights, expected_weights) << frame;
+  }
+  EXPECT_FALSE(shim.expect_motion({2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1})) << "scaled";
+  EXPECT_FALSE(shim.expect_motion({1, 0, 0, std::nan(""), 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+}
+
 TEST(ShimFilter, WrongSettingsAreNamed) {
   EXPECT_EQ(refusal_of(camera()), "accepted");
   stillpoint_shim::Camera wrong = camera();
@@ -230,9 +350,12 @@ TEST(ShimFilter, WrongSettingsAreNamed) {
             "stillpoint: camera: distortion[4] is 0.100000, expected 0: only brown_conrady has five coefficients");
 
   stillpoint_shim::Settings settings;
-  settings.depth_factor = 0;
+  settings.depth_factor = -1000;
   EXPECT_EQ(refusal_of(camera(), settings),
-            "stillpoint: settings: depth_factor is 0.000000, expected a positive number of units per metre");
+            "stillpoint: settings: depth_factor is -1000.000000, expected units per metre: 1000 for millimetres, 5000 "
+            "for TUM's files, 0 without 16-bit depth");
+  settings.depth_factor = std::nan("");
+  EXPECT_NE(refusal_of(camera(), settings), "accepted");
   settings = {};
   settings.false_positive_rate = std::nan("");
   EXPECT_EQ(refusal_of(camera(), settings), "stillpoint: settings: false_positive_rate is nan, expected 1e-6 to 0.5");
