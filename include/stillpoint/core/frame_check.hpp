@@ -31,16 +31,20 @@ struct FrameCheck {
     const bool depth_readable =
         depth == PixelFormat::depth32f || (depth == PixelFormat::depth16 && frame.depth.factor > 0);
     if (!frame.depth.empty() && !depth_readable) return Status::unsupported_image;
-    const auto other_size = [&camera](const ImageView& view) {
-      return !view.empty() && (view.width != camera.width() || view.height != camera.height());
-    };
-    if (other_size(frame.gray) || other_size(frame.colour)) return Status::size_changed;
+    for (const ImageView* view : {&frame.gray, &frame.colour})
+      if (!view->empty() && !has_size(*view, camera)) return Status::size_changed;
     if (!std::isfinite(frame.timestamp_s)) return Status::invalid_time;
     if (!last_timestamp_s) return Status::first_frame;
     if (frame.timestamp_s == *last_timestamp_s) return Status::duplicate_frame;
     if (frame.timestamp_s < *last_timestamp_s) return Status::out_of_order;
     if (frame.timestamp_s - *last_timestamp_s > options.longest_gap_s) return Status::time_gap;
     return Status::ok;
+  }
+
+  /// Whether an image is of the camera's size.
+  template <class Camera>
+  static bool has_size(const ImageView& image, const Camera& camera) noexcept {
+    return image.width == camera.width() && image.height == camera.height();
   }
 
   /// Such a frame is no frame: it leaves the filter as it was.
