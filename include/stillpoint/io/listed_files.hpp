@@ -24,8 +24,8 @@ class ListedFiles {
     std::error_code ignored;
     if (std::filesystem::is_regular_file(file, ignored)) return true;
     if (missing_++ == 0)
-      first_missing_ = rows.found_at(column, "file name") + ", expected an image that is there; " + file.string() +
-                       " is not";
+      first_missing_ =
+          rows.found_at(column, "file name") + ", expected an image that is there; " + file.string() + " is not";
     return false;
   }
 
@@ -34,10 +34,9 @@ class ListedFiles {
   ///         copy broke off.
   std::size_t missing() const {
     if (10 * missing_ <= named_) return missing_;
-    throw Error(first_missing_ +
-                (missing_ > 1 ? ", and " + std::to_string(missing_ - 1) + " more of the " + std::to_string(named_) +
-                                    " that the list names are not"
-                              : ""));
+    throw Error(first_missing_ + (missing_ > 1 ? ", and " + std::to_string(missing_ - 1) + " more of the " +
+                                                     std::to_string(named_) + " that the list names are not"
+                                               : ""));
   }
 
  private:

@@ -72,8 +72,7 @@ inline std::vector<std::pair<std::size_t, std::size_t>> associate_images(const s
   };
   std::vector<Link> links(1);  // the first is before all and behind all
   for (std::size_t i = 0, j = 0; i < colour.size() || j < depth.size();) {
-    const bool is_colour =
-        j == depth.size() || (i < colour.size() && colour[i].timestamp_s <= depth[j].timestamp_s);
+    const bool is_colour = j == depth.size() || (i < colour.size() && colour[i].timestamp_s <= depth[j].timestamp_s);
     links.push_back({is_colour, is_colour ? i++ : j++, links.size() - 1, links.size() + 1});
   }
   links.back().after = 0;

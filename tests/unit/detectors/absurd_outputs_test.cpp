@@ -11,7 +11,7 @@
 #include "stillpoint/detectors/network_decoder.hpp"
 #include "unit/detectors/made_tensor.hpp"
 
-namespace stillpoint {
+namespace stillpoint::absurd_outputs_test {
 namespace {
 
 constexpr float kAbsurd[] = {1e7f, 1e36f, 3e38f, std::numeric_limits<float>::infinity(),
@@ -50,7 +50,9 @@ TEST(AbsurdOutputs, MaskRcnnsMasksWithoutACell) {
     const MadeTensor masks({2, 2, rows, columns});
     boxes.write({0, 0, 0, 0}, {0, 0, 0.9f, 0.1f, 0.1f, 0.5f, 0.5f});
     expect_contains(
-        error_of([&] { decoded(options_of(DetectorLayout::mask_rcnn), {400, 400}, views(boxes, masks)); }),
+        error_of([&] {
+          decoded(options_of(DetectorLayout::mask_rcnn), {400, 400}, views(boxes, masks));
+        }),
         "layout mask-rcnn: found outputs 2x2x" + std::to_string(rows) + "x" + std::to_string(columns) + ", expected");
     boxes.write({0, 0, 0, 0}, {0, 0, 0.0f});
     EXPECT_TRUE(decoded(options_of(DetectorLayout::mask_rcnn), {400, 400}, views(boxes, masks)).empty());
@@ -76,8 +78,8 @@ TEST(AbsurdOutputs, LabelledBoxesAndTheirMasksOutOfTheWorld) {
     boxes.write({1, 0}, {-far, -far, far, far});
     boxes.write({2, 0}, {-9e5f, -9e5f, 9e5f, 9e5f});  // far out, and a box still: its mask must not overflow
     labels.values[1] = far;
-    EXPECT_EQ(
-        decoded(options_of(DetectorLayout::labelled_boxes), {64, 48}, views(labels, boxes, scores, masks)).size(), 2u)
+    EXPECT_EQ(decoded(options_of(DetectorLayout::labelled_boxes), {64, 48}, views(labels, boxes, scores, masks)).size(),
+              2u)
         << far;
   }
 }
@@ -85,7 +87,9 @@ TEST(AbsurdOutputs, LabelledBoxesAndTheirMasksOutOfTheWorld) {
 TEST(AbsurdOutputs, NoOutputAtAllIsAnError) {
   for (auto i = static_cast<int>(DetectorLayout::automatic); i <= static_cast<int>(DetectorLayout::label_map); ++i) {
     const auto layout = static_cast<DetectorLayout>(i);
-    expect_contains(error_of([&] { NetworkDecoder(options_of(layout), {64, 64}, {}); }),
+    expect_contains(error_of([&] {
+                      NetworkDecoder(options_of(layout), {64, 64}, {});
+                    }),
                     "found outputs no output, expected at least one");
     expect_contains(error_of([&] { NetworkDecoder(options_of(layout, {}), {64, 64}, {}); }), "no output");
   }
@@ -93,16 +97,17 @@ TEST(AbsurdOutputs, NoOutputAtAllIsAnError) {
 
 TEST(AbsurdOutputs, AnOutputWithoutElementsIsNone) {
   const Tensor nowhere{{1, 2, 16, 16}, nullptr, false};
-  expect_contains(error_of([&] { NetworkDecoder(options_of(DetectorLayout::segmentation), {64, 64}, {&nowhere, 1}); }),
+  expect_contains(error_of([&] {
+                    NetworkDecoder(options_of(DetectorLayout::segmentation), {64, 64}, {&nowhere, 1});
+                  }),
                   "with its elements");
 }
 
 // Empty in each of its extents, in turn: an error or nothing found.
 TEST(AbsurdOutputs, EmptyOutputsFindNothing) {
-  const std::vector<std::vector<int>> shapes = {{1, 6, 0},     {1, 0, 6},    {1, 0, 7},     {0, 7},          {1, 1, 0, 7},
-                                                {1, 2, 0, 16}, {1, 2, 8, 0}, {1, 0, 8, 8},  {0, 2, 8, 8},    {1, 8, 0},
-                                                {1, 0, 8},     {1, 0, 0, 1}, {1, 3, 0, 0, 7}, {1, 21, 0, 0}, {0},
-                                                {}};
+  const std::vector<std::vector<int>> shapes = {
+      {1, 6, 0},    {1, 0, 6}, {1, 0, 7}, {0, 7},       {1, 1, 0, 7},    {1, 2, 0, 16}, {1, 2, 8, 0}, {1, 0, 8, 8},
+      {0, 2, 8, 8}, {1, 8, 0}, {1, 0, 8}, {1, 0, 0, 1}, {1, 3, 0, 0, 7}, {1, 21, 0, 0}, {0},          {}};
   for (const std::vector<int>& extents : shapes) {
     const MadeTensor output((TensorShape(extents)), 0.9f);
     for (auto i = static_cast<int>(DetectorLayout::automatic); i <= static_cast<int>(DetectorLayout::label_map); ++i) {
@@ -135,7 +140,9 @@ TEST(AbsurdOutputs, NanoDetHasFourPairsAtMost) {
   const MadeTensor scores({1, 2}), distances({1, 32});
   std::vector<Tensor> outputs;
   for (int i = 0; i < 40; ++i) outputs.push_back(i % 2 == 0 ? scores.view() : distances.view());
-  expect_contains(error_of([&] { NetworkDecoder(options_of(DetectorLayout::nanodet), {8, 8}, outputs); }),
+  expect_contains(error_of([&] {
+                    NetworkDecoder(options_of(DetectorLayout::nanodet), {8, 8}, outputs);
+                  }),
                   "expected a pair for each stride from 8 to 64 at most");
 }
 
@@ -160,4 +167,4 @@ TEST(AbsurdOutputs, AMaskAnswersEverywhere) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::absurd_outputs_test
