@@ -119,7 +119,7 @@ TEST_F(BrokenInput, StandardOutputThatIsFull) {
 
 TEST_F(BrokenInput, PathsWithOddCharactersAreNamedInOneLine) {
   expect_error("--tum \"$(printf '/no\\nwhere?')\"", {"/no?where?: no such folder"});
-  const fs::path odd = folder / "odd\n100%d";
+  const fs::path odd = folder / "odd\n?100%d";
   fs::rename(sequence, odd);
   const Outcome outcome = run_program("--quiet --backend none --tum " + quoted(odd) + " --out " + quoted(odd / "out?"));
   EXPECT_EQ(outcome.status, 0) << outcome.error;
