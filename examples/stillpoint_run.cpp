@@ -9,9 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cerrno>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -107,6 +109,22 @@ void run(const Options& options) {
   std::printf("Report: %s\n", (options.out / "report.html").string().c_str());
 }
 
+/// An error is one line, whatever names of files are in it.
+std::string one_line(std::string message) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < ' ' || c == 127) c = '?';
+  return message;
+}
+
+/// What is left of standard output is written, or it is an error: the disk may be full.
+void flush_output() {
+  errno = 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout.flush())
+    throw stillpoint::Error(std::string("standard output: cannot write") +
+                            (errno != 0 ? ": " + std::generic_category().message(errno) : ""));
+}
+
 }  // namespace
 }  // namespace stillpoint_run
 
@@ -114,17 +132,17 @@ int main(int argument_count, char** arguments) {
   constexpr int kFailed = 2;
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // an error is one line, and ours
   try {
-    stillpoint_run::run(stillpoint_run::parse_options(argument_count, arguments));
-    return 0;
-  } catch (const stillpoint_run::NothingToRun&) {
+    try {
+      stillpoint_run::run(stillpoint_run::parse_options(argument_count, arguments));
+    } catch (const stillpoint_run::NothingToRun&) {
+    }
+    stillpoint_run::flush_output();
     return 0;
   } catch (const stillpoint::ReplacedOptionsError& error) {  // the one with a list
     std::fprintf(stderr, "stillpoint_run: %s\n", error.what());
     return kFailed;
   } catch (const std::exception& error) {
-    std::string line = error.what();
-    line = line.substr(0, line.find('\n'));
-    std::fprintf(stderr, "stillpoint_run: %s\n", line.c_str());
+    std::fprintf(stderr, "stillpoint_run: %s\n", stillpoint_run::one_line(error.what()).c_str());
     return kFailed;
   }
 }

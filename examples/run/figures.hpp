@@ -28,6 +28,7 @@ struct RunRecord {
   std::vector<FrameSummary> frames;
   bool has_backend = false, has_stages = false, has_labels = false, has_depth = true;
   bool was_interrupted = false;
+  std::size_t missing_files = 0;                ///< that the sequence's lists name
   std::vector<std::string> assumptions;         ///< of the source, where nobody told it
   stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame
   std::optional<stillpoint::Trajectory> ground_truth;

@@ -62,6 +62,8 @@ class FrameSource {
   virtual bool has_depth() const { return true; }
   /// Of depth from a stereo pair; empty where nobody knows its baseline.
   virtual std::optional<stillpoint::StereoNoise> stereo_noise() const { return std::nullopt; }
+  /// Images that lists name and that are not there: their frames are left out.
+  virtual std::size_t missing_files() const { return 0; }
   /// What is taken for true because nobody said, one sentence each.
   virtual std::vector<std::string> assumptions() const { return {}; }
   /// Nothing behind the last frame. Indices must rise from call to call.
@@ -93,6 +95,7 @@ class TumSource : public FrameSource {
   const stillpoint::Camera& camera() const override { return sequence_.camera(); }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return sequence_.ground_truth(); }
   bool has_labels() const override { return sequence_.has_labels(); }
+  std::size_t missing_files() const override { return sequence_.missing_files(); }
   std::optional<stillpoint::StereoNoise> stereo_noise() const override {
     if (!sequence_.baseline_m()) return std::nullopt;
     stillpoint::StereoNoise noise;

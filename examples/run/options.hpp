@@ -265,8 +265,7 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
     app.exit(answered);
     throw NothingToRun{};
   } catch (const CLI::ParseError& error) {
-    const std::string message = error.what();
-    throw stillpoint::Error(message.substr(0, message.find('\n')) + " (stillpoint_run --help lists the arguments)");
+    throw stillpoint::Error(std::string(error.what()) + " (stillpoint_run --help lists the arguments)");
   }
   for (const CLI::Option* option : app.get_options())
     if (option->count() > 0) options.given.push_back("--" + option->get_lnames().front());

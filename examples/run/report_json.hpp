@@ -93,6 +93,7 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
       {"prior", options.prior_name()},
       {"detector", detail::detector_json(run, figures)},
       {"frames", run.frames.size()},
+      {"missing_files", run.missing_files},
       {"interrupted", run.was_interrupted},
       {"assumptions", run.assumptions},
       {"features_per_frame", detail::or_null(figures.features_per_frame)},

@@ -112,6 +112,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   run.has_backend = options.backend != "none";
   run.has_labels = source.has_labels();
   run.has_depth = source.has_depth();
+  run.missing_files = source.missing_files();
   run.assumptions = source.assumptions();
   if (options.depth_noise == "stereo" && !source.stereo_noise())
     run.assumptions.push_back(

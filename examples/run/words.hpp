@@ -113,6 +113,9 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
   result.push_back(first);
   result.push_back(detail::trajectory_words(run, figures));
   for (const std::string& assumption : run.assumptions) result.push_back(assumption);
+  if (run.missing_files > 0)
+    result.push_back(count_words(run.missing_files, "image") + " that the sequence's lists name " +
+                     (run.missing_files == 1 ? "is" : "are") + " missing: the frames were left out.");
   if (run.was_interrupted) result.push_back("It was interrupted: later frames were not looked at.");
   const std::string labels = detail::label_words(run);
   if (!labels.empty()) result.push_back(labels);

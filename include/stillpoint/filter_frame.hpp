@@ -39,7 +39,7 @@ class FrameFilter : private PolicyContract<Policies> {
 
   explicit FrameFilter(Camera camera_model) : camera(std::move(camera_model)), history_(Policies::kHistoryLength) {}
 
-  Camera camera;                                ///< intrinsics and distortion
+  Camera camera;                                ///< intrinsics and distortion; one of another size begins anew
   FrameCheck frame_check;                       ///< which frames can be judged at all?
   DepthNoise depth_noise;                       ///< how wrong is a depth?
   typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
@@ -61,6 +61,7 @@ class FrameFilter : private PolicyContract<Policies> {
   template <class Keypoints>
   const FrameResult& filter_frame(const FrameView& host_frame, const Keypoints& keypoints) {
     result_.begin(read_pixels(keypoints, pixels_), camera.width(), camera.height());
+    if (!history_.empty() && !frame_check.has_size(history_.back(1).view().image(), camera)) reset();  // a new camera
     Status& status = result_.status_ = frame_check(host_frame, expectation_.last_timestamp_s(), camera);
     FrameView frame = host_frame;
     if (!FrameCheck::rejects(status)) {
@@ -79,13 +80,14 @@ class FrameFilter : private PolicyContract<Policies> {
   }
 
   /// The host's own pose of the frame that was filtered last, after its tracking. Those of two frames in a row predict
-  /// the next motion. A pose that is not finite is none.
+  /// the next motion. A pose that is not rigid is none, nor is a motion of more than 100 m (`is_plausible_motion`).
   void feedback(const Pose& world_from_camera) {
     expectation_.feedback(world_from_camera);
     use_check_.compare(world_from_camera, result_.motion_);
   }
 
-  /// What an IMU or wheels say of the coming motion; holds for the next frame. A pose that is not finite is none.
+  /// What an IMU or wheels say of the coming motion; holds for the next frame. One that is not rigid, or
+  /// longer than 100 m, is none (`is_plausible_motion`).
   void expect_motion(const Pose& current_from_reference) { expectation_.expect(current_from_reference); }
 
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so

@@ -84,6 +84,48 @@ TEST_F(BrokenInput, AssociationsThatNameAMissingFile) {
   expect_named_error({"associations.txt:2", "rgb/none.png", "expected an image that is there"});
 }
 
+TEST_F(BrokenInput, FewMissingImagesAreLeftOutAndSaid) {
+  std::string associations;
+  for (int i = 0; i < 30; ++i)
+    associations += std::to_string(1.0 + i / 30.0) + (i == 7 ? " rgb/gone.png " : " rgb/1.000000.png ") +
+                    std::to_string(1.0 + i / 30.0) + " depth/1.000000.png\n";
+  write_text(sequence / "associations.txt", associations);
+  fs::remove_all(sequence / "labels");
+  const Outcome outcome = run_program(arguments("--backend none --features 20"));
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("1 image that the sequence's lists name is missing: the frames were left out."),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(read_csv(out / "frames.csv").size(), 30u);  // the header's row and 29
+  EXPECT_NE(read_text(out / "report.json").find("\"missing_files\": 1,"), std::string::npos);
+}
+
+TEST_F(BrokenInput, PipesAndDevicesAsTextFiles) {
+  fs::remove(sequence / "associations.txt");
+  ASSERT_EQ(std::system(("mkfifo " + quoted(sequence / "associations.txt")).c_str()), 0);
+  expect_named_error({"associations.txt", "found a pipe or a device, expected a file"});
+  expect_named_error({"/dev/zero", "expected a file"}, "--camera /dev/zero");
+}
+
+TEST_F(BrokenInput, StandardOutputThatIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  const std::string program = std::string("\"") + STILLPOINT_RUN_PROGRAM + "\" ", error = quoted(folder / "error");
+  for (const std::string& more : {arguments(), std::string("--help")}) {
+    const int code = std::system((program + more + " > /dev/full 2> " + error).c_str());
+    EXPECT_EQ(WEXITSTATUS(code), 2) << more;
+    EXPECT_EQ(read_text(folder / "error").find("stillpoint_run: standard output: cannot write"), 0u) << more;
+  }
+}
+
+TEST_F(BrokenInput, PathsWithOddCharactersAreNamedInOneLine) {
+  expect_error("--tum \"$(printf '/no\\nwhere?')\"", {"/no?where?: no such folder"});
+  const fs::path odd = folder / "odd\n?100%d";
+  fs::rename(sequence, odd);
+  const Outcome outcome = run_program("--quiet --backend none --tum " + quoted(odd) + " --out " + quoted(odd / "out?"));
+  EXPECT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_EQ(files_in(odd / "out?").size(), 7u);
+}
+
 TEST_F(BrokenInput, FrameTimeTwice) {
   write_text(sequence / "associations.txt", line(0) + line(1) + line(1) + line(2));
   expect_named_error({"associations.txt:3", "timestamp", "expected later than"});

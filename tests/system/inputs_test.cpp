@@ -242,6 +242,12 @@ TEST_F(Inputs, VideoCanBeCutShort) {
                      {"--start: found 6", "expected less than the number of frames of video.avi"});
 }
 
+TEST_F(Inputs, VideoThatBreaksOff) {
+  write_video(40);
+  fs::resize_file(video, fs::file_size(video) / 2);
+  expect_named_error("--video " + quoted(video), {"video.avi", "breaks off", "expected a whole video"});
+}
+
 TEST_F(Inputs, VideoThatIsNone) {
   write_text(video, "this is no video");
   expect_named_error("--video " + quoted(video), {"video.avi", "cannot be read", "expected a video"});
@@ -250,16 +256,20 @@ TEST_F(Inputs, VideoThatIsNone) {
 }
 
 // The signal comes as soon as there are output files, which is before the first frame is done.
-TEST_F(Inputs, CtrlCEndsARunWithItsReport) {
-  const std::string program = std::string("\"") + STILLPOINT_RUN_PROGRAM + "\" --quiet --demo --out " + quoted(out);
-  const std::string command = program + " > " + quoted(folder / "said") + " & run=$!; while kill -0 $run && [ ! -e " +
-                              quoted(out / "features.csv.partial0") + " ]; do :; done; kill -INT $run; wait $run";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  EXPECT_EQ(files_in(out).size(), 7u);
-  EXPECT_TRUE(report()["interrupted"]);
-  EXPECT_LT(report()["frames"], 60);
-  EXPECT_GE(report()["frames"], 1);
-  EXPECT_NE(read_text(folder / "said").find("It was interrupted"), std::string::npos);
+TEST_F(Inputs, CtrlCAndAPoliteKillEndARunWithItsReport) {
+  for (const std::string signal : {"INT", "TERM", "HUP"}) {
+    fs::remove_all(out);
+    const std::string program = std::string("\"") + STILLPOINT_RUN_PROGRAM + "\" --quiet --demo --out " + quoted(out);
+    const std::string command = program + " > " + quoted(folder / "said") + " & run=$!; while kill -0 $run && [ ! -e " +
+                                quoted(out / "features.csv.partial0") + " ]; do :; done; kill -" + signal +
+                                " $run; wait $run";
+    EXPECT_EQ(std::system(command.c_str()), 0) << signal;
+    EXPECT_EQ(files_in(out).size(), 7u) << signal;
+    EXPECT_TRUE(report()["interrupted"]);
+    EXPECT_LT(report()["frames"], 60);
+    EXPECT_GE(report()["frames"], 1);
+    EXPECT_NE(read_text(folder / "said").find("It was interrupted"), std::string::npos);
+  }
 }
 
 TEST_F(Inputs, OneAtATime) {

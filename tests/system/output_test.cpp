@@ -103,6 +103,7 @@ void expect_report(const Json& report, int frame_count) {
                                       "prior",
                                       "detector",
                                       "frames",
+                                      "missing_files",
                                       "interrupted",
                                       "assumptions",
                                       "features_per_frame",

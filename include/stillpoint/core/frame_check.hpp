@@ -32,10 +32,8 @@ struct FrameCheck {
     if (!frame.depth.empty() && !is_raw && depth != PixelFormat::depth32f) return Status::unsupported_image;
     if (!frame.depth.empty() && is_raw && !(frame.depth.factor >= kCoarsest && frame.depth.factor <= kFinest))
       return Status::depth_unit_missing;
-    const auto other_size = [&camera](const ImageView& view) {
-      return !view.empty() && (view.width != camera.width() || view.height != camera.height());
-    };
-    if (other_size(frame.gray) || other_size(frame.colour)) return Status::size_changed;
+    for (const ImageView* view : {&frame.gray, &frame.colour})
+      if (!view->empty() && !has_size(*view, camera)) return Status::size_changed;
     if (!(std::abs(frame.timestamp_s) < kLatest_s)) return Status::invalid_time;
     if (half_beyond_a_kilometre(frame.depth)) return Status::implausible_depth;
     if (!last_timestamp_s) return Status::first_frame;
@@ -43,6 +41,12 @@ struct FrameCheck {
     if (frame.timestamp_s < *last_timestamp_s) return Status::out_of_order;
     if (frame.timestamp_s - *last_timestamp_s > options.longest_gap_s) return Status::time_gap;
     return Status::ok;
+  }
+
+  /// Whether an image is of the camera's size.
+  template <class Camera>
+  static bool has_size(const ImageView& image, const Camera& camera) noexcept {
+    return image.width == camera.width() && image.height == camera.height();
   }
 
   /// Such a frame is no frame: it leaves the filter as it was.

@@ -9,6 +9,8 @@
 
 #include <cmath>
 
+#include "stillpoint/core/no_fast_math.hpp"
+
 namespace stillpoint {
 
 using Eigen::Matrix3d;

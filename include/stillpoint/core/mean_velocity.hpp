@@ -22,7 +22,8 @@ class MeanVelocity {
     const double share = known_ ? 1.0 - std::exp(-elapsed_s / kMemory_s) : 1.0;
     angular_rad_s_ += share * (vector_from_rotation(current_from_reference.linear()) / elapsed_s - angular_rad_s_);
     linear_m_s_ += share * (current_from_reference.translation() / elapsed_s - linear_m_s_);
-    known_ = true;
+    known_ = angular_rad_s_.allFinite() && linear_m_s_.allFinite();
+    if (!known_) forget();  // time stamps a rounding apart: what was known would not come back
   }
 
   /// current_from_reference after so long; nothing where nothing is known.

@@ -12,19 +12,40 @@
 
 namespace stillpoint {
 
-/// Keeps the last velocity, and what the host says. Poses that are not finite say nothing.
+/// Whether a pose is one: finite, and a rotation with a translation but for what rounding and drift leave.
+inline bool is_rigid(const Pose& pose) {
+  constexpr double kDrift = 0.01;  // of products of many rotations in single precision, far more than rounding
+  const Matrix3d rotation = pose.linear();
+  return pose.matrix().allFinite() && rotation.cwiseAbs().maxCoeff() < 2.0 &&
+         (rotation.transpose() * rotation - Matrix3d::Identity()).norm() < kDrift &&
+         rotation.col(0).cross(rotation.col(1)).dot(rotation.col(2)) > 0.0;  // no mirror
+}
+
+/// Whether a camera may have moved so from one frame to the next: rigid, and no farther than 100 m (what a train of
+/// 360 km/h makes in a second). More is another unit, or a jump to another place.
+inline bool is_plausible_motion(const Pose& current_from_reference) {
+  constexpr double kFarthest_m = 100.0;
+  return is_rigid(current_from_reference) &&
+         current_from_reference.translation().cwiseAbs().maxCoeff() <= kFarthest_m &&
+         current_from_reference.translation().norm() <= kFarthest_m;
+}
+
+/// Keeps the last velocity, and what the host says. Poses that are not rigid, and motions that no camera makes, say
+/// nothing.
 class MotionExpectation {
  public:
   /// The host's own pose of the frame that came last. Those of two frames in a row give the velocity.
   void feedback(const Pose& world_from_camera) {
-    if (!world_from_camera.matrix().allFinite()) return;
+    if (!is_rigid(world_from_camera)) return;
     world_from_last_ = world_from_camera;
-    if (world_from_second_last_) last_motion_ = orthonormalized(inverted(world_from_camera) * *world_from_second_last_);
+    if (!world_from_second_last_) return;
+    const Pose moved = inverted(world_from_camera) * *world_from_second_last_;
+    if (is_plausible_motion(moved)) last_motion_ = orthonormalized(moved);
   }
 
   /// What an IMU or wheels say of the motion to the coming frame; holds for that one.
   void expect(const Pose& current_from_reference) {
-    if (current_from_reference.matrix().allFinite()) said_ = current_from_reference;
+    if (is_plausible_motion(current_from_reference)) said_ = orthonormalized(current_from_reference);
   }
 
   /// @param timestamp_s  of the coming frame: the velocity is scaled to the time that has passed
@@ -37,6 +58,9 @@ class MotionExpectation {
     else if (last_motion_ && last_timestamp_s_)
       prior.current_from_reference = scaled(*last_motion_, prior.elapsed_s / last_interval_s_);
     if (prior.elapsed_s > 0) prior.predicted = said_ ? said_ : mean_velocity_.during(prior.elapsed_s);
+    // A velocity over a tiny interval, that of two time stamps a rounding apart, is none.
+    for (std::optional<Pose>* pose : {&prior.current_from_reference, &prior.predicted})
+      if (*pose && !is_plausible_motion(**pose)) pose->reset();
     return prior;
   }
 

@@ -55,10 +55,13 @@ struct BoxMask {
   int columns = 0, rows = 0;
   std::vector<std::uint8_t> inside;  ///< row by row, 0 is not the thing
 
-  /// @param x, y  share of the box's width and height, 0 to 1
+  /// @param x, y  share of the box's width and height, 0 to 1; beyond, the cells at the border count on
   bool at(float x, float y) const noexcept {
+    if (columns <= 0 || rows <= 0) return false;
     const auto cell = [](float share, int count) {
-      return std::min(static_cast<int>(share * static_cast<float>(count)), count - 1);
+      const float place = share * static_cast<float>(count);
+      if (!(place > 0.0f)) return 0;  // nor is NaN
+      return place < static_cast<float>(count) ? std::min(static_cast<int>(place), count - 1) : count - 1;
     };
     const auto row = static_cast<std::size_t>(cell(y, rows)), column = static_cast<std::size_t>(cell(x, columns));
     return inside[row * static_cast<std::size_t>(columns) + column] != 0;

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "stillpoint/core/no_fast_math.hpp"
+
 namespace stillpoint {
 
 /// Non-owning view of `size()` contiguous elements. Copying copies the view, not the elements.

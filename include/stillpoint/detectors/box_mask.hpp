@@ -15,6 +15,12 @@
 
 namespace stillpoint {
 
+/// The cell that a place lies in, of a row of cells from 0 on; -1 outside, and for NaN.
+/// @param place  in cells
+inline int cell_at(float place, int cells) noexcept {
+  return place >= 0.0f && place < static_cast<float>(cells) ? std::min(static_cast<int>(place), cells - 1) : -1;
+}
+
 /// A raster over the box.
 /// @param inside  `bool(float x, float y)` for the middle of each cell, x and y in pixels of the input
 template <class Inside>

@@ -102,6 +102,8 @@ class ClassList {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) throw Error(file.string() + ": no such file");
     if (std::filesystem::is_directory(file, ignored)) throw Error(file.string() + ": found a folder, expected a file");
+    if (!std::filesystem::is_regular_file(file, ignored))
+      throw Error(file.string() + ": found a pipe or a device, expected a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(file.string() + ": cannot be read");
     std::vector<std::string> names;

@@ -32,10 +32,14 @@ inline void decode_detection_output(const Tensor& output, const DecodeSettings& 
 /// Gives each box of `decode_detection_output` its mask: the channel of its class, stretched over the box, where it
 /// passes one half (He et al., "Mask R-CNN", 2017).
 /// @param masks  Kxnxhxw, probabilities; a box whose class has no channel stays without a mask
+/// @throws Error on another shape, and where there are boxes but h or w is 0.
 inline void attach_class_masks(const Tensor& masks, std::vector<RawDetection>& found) {
-  require_shape(masks.shape.rank() == 4, "mask-rcnn", "1x1xKx7 and Kx(classes)xhxw", {&masks, 1});
   const int channels = masks.shape[1], rows = masks.shape[2], columns = masks.shape[3];
-  constexpr int kFiner = 4;  // cells of the mask for each of the network's, which are interpolated
+  require_shape(masks.shape.rank() == 4 && (found.empty() || (rows > 0 && columns > 0)), "mask-rcnn",
+                "1x1xKx7 and Kx(classes)xhxw", {&masks, 1});
+  // Cells of the mask for each of the network's, which are interpolated; those of a large one are fine enough.
+  constexpr int kLarge = 256;
+  const int finer = rows < kLarge && columns < kLarge ? 4 : 1;
   for (RawDetection& box : found) {
     if (box.source >= masks.shape[0] || box.label < 0 || box.label >= channels) continue;
     const float* const cells = masks.data + (std::ptrdiff_t{box.source} * channels + box.label) * rows * columns;
@@ -50,7 +54,7 @@ inline void attach_class_masks(const Tensor& masks, std::vector<RawDetection>& f
       const auto at = [&](int column, int row) { return cells[row * columns + column]; };
       return (1 - b) * ((1 - a) * at(u0, v0) + a * at(u1, v0)) + b * ((1 - a) * at(u0, v1) + a * at(u1, v1)) > 0.5f;
     };
-    box.mask = make_mask(box, kFiner * columns, kFiner * rows, inside);
+    box.mask = make_mask(box, finer * columns, finer * rows, inside);
   }
 }
 

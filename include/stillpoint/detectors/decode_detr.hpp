@@ -110,9 +110,8 @@ inline void decode_labelled_boxes(span<const Tensor> outputs, const DecodeSettin
     const float height = std::min((box.bottom - box.top) * rows_per_px, static_cast<float>(rows));
     box.mask =
         make_mask(box, static_cast<int>(std::ceil(width)), static_cast<int>(std::ceil(height)), [&](float x, float y) {
-          const int u = static_cast<int>(std::floor(x * columns_per_px));
-          const int v = static_cast<int>(std::floor(y * rows_per_px));
-          return u >= 0 && v >= 0 && u < columns && v < rows && cells[v * columns + u] > 0.5f;
+          const int u = cell_at(x * columns_per_px, columns), v = cell_at(y * rows_per_px, rows);
+          return u >= 0 && v >= 0 && cells[v * columns + u] > 0.5f;
         });
   }
 }

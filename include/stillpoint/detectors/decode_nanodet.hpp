@@ -77,6 +77,9 @@ inline const Tensor* find_distance_head(span<const Tensor> outputs, int cells, i
 /// Decodes pairs of nx(nc) scores (sigmoids) and nx4(r+1) distances, strides 8 to 32, or to 64 with eight outputs.
 inline void decode_nanodet(span<const Tensor> outputs, const DecodeSettings& settings, const CellMiddle& middle,
                            std::vector<RawDetection>& found) {
+  constexpr std::size_t kMostHeads = 4;
+  require_shape(outputs.size() % 2 == 0 && outputs.size() <= 2 * kMostHeads, "nanodet or picodet",
+                "a pair for each stride from 8 to 64 at most", outputs);
   int source = 0;
   for (int stride_px = 8, head = 0; head < static_cast<int>(outputs.size()) / 2; stride_px *= 2, ++head) {
     const int cells = cells_of(settings.input, stride_px);

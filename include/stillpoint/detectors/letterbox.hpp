@@ -29,12 +29,12 @@ class Letterbox {
   int width, height;      ///< pixels of the input that show the image
 
   Letterbox(InputSize image, InputSize input, ImageFit fit) noexcept
-      : width(input.width), height(input.height), image_(image) {
+      : width(input.width), height(input.height), image_{std::max(image.width, 1), std::max(image.height, 1)} {
     if (fit == ImageFit::stretch) return;
     const double scale =
-        std::min(static_cast<double>(input.width) / image.width, static_cast<double>(input.height) / image.height);
-    width = std::clamp(static_cast<int>(std::lround(image.width * scale)), 1, input.width);
-    height = std::clamp(static_cast<int>(std::lround(image.height * scale)), 1, input.height);
+        std::min(static_cast<double>(input.width) / image_.width, static_cast<double>(input.height) / image_.height);
+    width = std::clamp(static_cast<int>(std::lround(image_.width * scale)), 1, input.width);
+    height = std::clamp(static_cast<int>(std::lround(image_.height * scale)), 1, input.height);
     if (fit == ImageFit::letterbox_top_left) return;
     left = (input.width - width) / 2;
     top = (input.height - height) / 2;

@@ -37,9 +37,12 @@ class NetworkDecoder {
   NetworkDecoder() = default;
 
   /// @param outputs  of a run on any image, an empty one too
-  /// @throws Error if layout or classes are neither set nor told by the shapes, or the shapes contradict them.
+  /// @throws Error if layout or classes are neither set nor told by the shapes, or the shapes contradict them; if there
+  ///         is no output, or the input's size is none.
   NetworkDecoder(const DetectorOptions& options, const InputSize& input, span<const Tensor> outputs)
       : options_(options), layout_(options.layout) {
+    require_input(input);
+    require_outputs(outputs);
     settings_.input = input;
     settings_.lowest_confidence = options.lowest_confidence;
     if (options.classes.empty())
@@ -63,6 +66,7 @@ class NetworkDecoder {
   /// @throws Error if the shapes are not those of the layout.
   void decode(span<const Tensor> outputs, std::vector<RawDetection>& found) const {
     found.clear();
+    require_outputs(outputs);
     const auto only = [&]() -> const Tensor& {
       require_shape(outputs.size() == 1, std::string(to_string(layout_)).c_str(), "one output", outputs);
       return outputs[0];
@@ -136,11 +140,28 @@ class NetworkDecoder {
   /// OpenCV's Mask R-CNN without the background that COCO's list has.
   int class_index(int label) const noexcept {
     if (label < 0) return -1;
-    if (options_.first_class_number) return label - *options_.first_class_number;
+    if (options_.first_class_number) {
+      const std::int64_t index = std::int64_t{label} - *options_.first_class_number;
+      return index >= 0 && index < static_cast<std::int64_t>(classes().size()) ? static_cast<int>(index) : -1;
+    }
     const bool background = classes().starts_with_background();
     if (layout_ == DetectorLayout::ssd && !background) return label - 1;
     if (layout_ == DetectorLayout::mask_rcnn && background) return label + 1;
     return label;
+  }
+
+  static void require_input(const InputSize& input) {
+    constexpr int kLargest = 65535;  // what images' files can hold, too
+    if (input.width < 1 || input.height < 1 || input.width > kLargest || input.height > kLargest)
+      throw Error("the network's input is " + std::to_string(input.width) + "x" + std::to_string(input.height) +
+                  ", expected from 1 to " + std::to_string(kLargest) + " pixels each way");
+  }
+
+  /// At least one, and elements in each that should have some.
+  void require_outputs(span<const Tensor> outputs) const {
+    bool fits = !outputs.empty();
+    for (const Tensor& output : outputs) fits = fits && (output.data != nullptr || output.shape.count() == 0);
+    require_shape(fits, std::string(to_string(layout_)).c_str(), "at least one output, with its elements", outputs);
   }
 
   /// Without a class list: the list that comes with the library whose length fits the shapes, if it is one alone.

@@ -40,12 +40,13 @@ struct RawDetection {
   std::shared_ptr<const BoxMask> mask = nullptr;  ///< stretched over the box
 };
 
-/// Appends a box given by its corners, unless it is not finite or has no area.
+/// Appends a box given by its corners, unless it has no area, or a corner that is not finite or lies farther out than
+/// any input reaches: what such a box covers is not known.
 inline void append_corners(std::vector<RawDetection>& found, float left, float top, float right, float bottom,
                            float score, int label, int source) {
-  if (!(std::isfinite(left) && std::isfinite(top) && right > left && bottom > top && std::isfinite(right) &&
-        std::isfinite(bottom)))
-    return;
+  constexpr float kFarthest_px = 1e6f;
+  const auto is_near = [](float place) { return std::abs(place) <= kFarthest_px; };  // NaN is not
+  if (!(is_near(left) && is_near(top) && is_near(right) && is_near(bottom) && right > left && bottom > top)) return;
   found.push_back({left, top, right, bottom, score, label, source});
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <limits>
 #include <string>
 
 #include "stillpoint/core/error.hpp"
@@ -22,13 +23,19 @@ class TensorShape {
 
   TensorShape() = default;
   TensorShape(std::initializer_list<int> extents) : TensorShape(span<const int>(extents.begin(), extents.size())) {}
-  /// @throws Error with more than `kHighestRank` extents.
+  /// @throws Error with more than `kHighestRank` extents, a negative one, or more elements than an int counts: whoever
+  ///         walks through a tensor may do it with an int.
   explicit TensorShape(span<const int> extents) {
     if (extents.size() > kHighestRank)
       throw Error("an output of the network has " + std::to_string(extents.size()) + " dimensions, expected at most " +
                   std::to_string(kHighestRank));
     std::copy(extents.begin(), extents.end(), extents_.begin());
     rank_ = static_cast<int>(extents.size());
+    double elements = 1;
+    for (const int extent : extents) elements *= extent < 0 ? std::numeric_limits<double>::infinity() : extent;
+    if (!(elements <= std::numeric_limits<int>::max()))
+      throw Error("an output of the network has the shape " + text() + ", expected extents from 0 on and at most " +
+                  std::to_string(std::numeric_limits<int>::max()) + " elements");
   }
 
   int rank() const noexcept { return rank_; }

@@ -34,8 +34,8 @@ inline void attach_yolo_masks(const Tensor& boxes, const Tensor& prototypes, con
   for (RawDetection& box : found) {
     const float* const mixture = boxes.data + box.source * per_box + fields.first * per_field;
     const auto inside = [&](float x, float y) {
-      const int u = static_cast<int>(std::floor(x * columns_per_px)), v = static_cast<int>(std::floor(y * rows_per_px));
-      if (u < 0 || v < 0 || u >= columns || v >= rows) return false;
+      const int u = cell_at(x * columns_per_px, columns), v = cell_at(y * rows_per_px, rows);
+      if (u < 0 || v < 0) return false;
       const float* const prototype = prototypes.data + v * columns + u;
       float sum = 0;
       for (int k = 0; k < count; ++k) sum += mixture[k * per_field] * prototype[k * per_prototype];

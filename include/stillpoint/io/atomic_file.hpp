@@ -29,8 +29,8 @@ class AtomicFile {
     if (std::filesystem::is_directory(target_, ignored))
       throw Error(target_.string() + ": found a folder, expected a file to write");
     // A name that exists belongs to another process or was left by a dead one: either way it is not ours to touch.
-    constexpr int kMostNames = 100;
-    for (int attempt = 0; attempt < kMostNames && file_ == nullptr; ++attempt) {
+    // There are as many names as it takes.
+    for (std::size_t attempt = 0; file_ == nullptr; ++attempt) {
       temporary_ = target_;
       temporary_ += ".partial" + std::to_string(attempt);
       errno = 0;

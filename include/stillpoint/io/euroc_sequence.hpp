@@ -22,6 +22,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/io/euroc_sensor.hpp"
+#include "stillpoint/io/listed_files.hpp"
 #include "stillpoint/io/stereo_images.hpp"
 #include "stillpoint/io/table_reader.hpp"
 
@@ -50,18 +51,19 @@ struct EurocImage {
 };
 
 /// Reads data.csv of a camera: `timestamp [ns],filename`, the images in data/ beside it.
-inline std::vector<EurocImage> read_euroc_images(const std::filesystem::path& camera_folder) {
+/// @param missing_files  grows by those that are left out
+inline std::vector<EurocImage> read_euroc_images(const std::filesystem::path& camera_folder,
+                                                 std::size_t& missing_files) {
   std::vector<EurocImage> images;
+  ListedFiles files;
   TableReader rows(camera_folder / "data.csv", TableReader::Columns::between_commas);
   for (std::int64_t previous_ns = kBeforeAllTime_ns; rows.next_row();) {
     rows.require_columns(2, "timestamp [ns],filename");
     const std::int64_t time_ns = nanoseconds(rows, previous_ns);
     const std::filesystem::path file = camera_folder / "data" / std::string(rows[1]);
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored))
-      rows.fail_at(1, "file name", "an image that is there; " + file.string() + " is not");
-    images.push_back({time_ns, file});
+    if (files.is_there(rows, 1, file)) images.push_back({time_ns, file});
   }
+  missing_files += files.missing();
   return images;
 }
 
@@ -107,8 +109,8 @@ class EurocSequence {
         sensors_(sensor_folder(folder_)),
         left_(read_euroc_camera(sensors_ / "cam0" / "sensor.yaml")),
         right_(read_euroc_camera(sensors_ / "cam1" / "sensor.yaml")) {
-    const auto left = detail::read_euroc_images(sensors_ / "cam0"),
-               right = detail::read_euroc_images(sensors_ / "cam1");
+    const auto left = detail::read_euroc_images(sensors_ / "cam0", missing_files_),
+               right = detail::read_euroc_images(sensors_ / "cam1", missing_files_);
     for (std::size_t i = 0, j = 0; i < left.size() && j < right.size();) {
       if (left[i].time_ns == right[j].time_ns)
         frames_.push_back({detail::seconds(left[i].time_ns), left[i].file, right[j].file});
@@ -129,6 +131,8 @@ class EurocSequence {
 
   const std::filesystem::path& folder() const { return folder_; }
   const std::vector<StereoFrame>& frames() const { return frames_; }
+  /// Images that the lists name and that are not there: a tenth at most, and their frames are left out.
+  std::size_t missing_files() const { return missing_files_; }
   const Camera& left_camera() const { return left_.camera; }
   const Camera& right_camera() const { return right_.camera; }
   Pose right_from_left() const { return right_.body_from_camera.inverse() * left_.body_from_camera; }
@@ -159,6 +163,7 @@ class EurocSequence {
   std::filesystem::path folder_, sensors_;
   EurocCamera left_, right_;
   std::vector<StereoFrame> frames_;
+  std::size_t missing_files_ = 0;
   std::optional<Trajectory> ground_truth_;
 };
 

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
@@ -18,6 +16,7 @@
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/number_format.hpp"
+#include "stillpoint/io/text_file.hpp"
 
 namespace stillpoint {
 
@@ -29,15 +28,10 @@ class TableReader {
     between_commas,  ///< blanks around them do not count; a column may be empty
   };
 
-  /// @throws Error if the file is missing, a folder, or unreadable.
+  /// @throws Error as `read_text`.
   explicit TableReader(const std::filesystem::path& file, Columns columns = Columns::between_blanks)
       : file_(file.string()), separates_by_commas_(columns == Columns::between_commas) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) throw Error(file_ + ": no such file");
-    if (std::filesystem::is_directory(file, ignored)) throw Error(file_ + ": found a folder, expected a file");
-    std::ifstream stream(file, std::ios::binary);
-    text_.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-    if (!stream) throw Error(file_ + ": cannot be read");
+    text_ = read_text(file);
     if (text_.compare(0, 3, "\xef\xbb\xbf") == 0) next_ = 3;  // the byte order mark that some editors write
   }
   TableReader(const TableReader&) = delete;  // the columns point into the text
@@ -91,7 +85,11 @@ class TableReader {
     throw Error(position() + ": found " + found + ", expected " + expected);
   }
   [[noreturn]] void fail_at(std::size_t column, const char* name, const std::string& expected) const {
-    fail(std::string(name) + " " + printable(columns_[column]), expected);
+    throw Error(found_at(column, name) + ", expected " + expected);
+  }
+  /// "FILE:LINE: found NAME 'COLUMN'".
+  std::string found_at(std::size_t column, const char* name) const {
+    return position() + ": found " + name + " " + printable(columns_[column]);
   }
 
   /// "FILE:LINE" of the current row.

@@ -42,13 +42,15 @@ class TumSequence {
   ///         `read_trajectory`.
   explicit TumSequence(std::filesystem::path folder, std::optional<RgbdCamera> camera = std::nullopt)
       : folder_(std::move(folder)),
-        frames_(read_tum_frames(folder_)),
+        list_(list_tum_frames(folder_)),
         camera_(camera ? *std::move(camera) : find_camera(folder_)) {
     if (is_there("groundtruth.txt")) ground_truth_ = read_trajectory(folder_ / "groundtruth.txt");
   }
 
   const std::filesystem::path& folder() const { return folder_; }
-  const std::vector<TumFrame>& frames() const { return frames_; }
+  const std::vector<TumFrame>& frames() const { return list_.frames; }
+  /// Images that the lists name and that are not there: a tenth at most, and their frames are left out.
+  std::size_t missing_files() const { return list_.missing_files; }
   const Camera& camera() const { return camera_.camera; }
   double depth_factor() const { return camera_.depth_factor; }
   /// Of the two cameras that the depth is from; empty where the camera's file does not say.
@@ -109,10 +111,10 @@ class TumSequence {
   }
 
   const TumFrame& frame_at(std::size_t index) const {
-    if (index >= frames_.size())
+    if (index >= frames().size())
       throw Error(folder_.string() + ": frame " + std::to_string(index) + " is asked for, expected one below " +
-                  std::to_string(frames_.size()));
-    return frames_[index];
+                  std::to_string(frames().size()));
+    return frames()[index];
   }
 
   static void require_type(const std::filesystem::path& file, const cv::Mat& image, int type) {
@@ -129,7 +131,7 @@ class TumSequence {
   }
 
   std::filesystem::path folder_;
-  std::vector<TumFrame> frames_;
+  TumFrames list_;
   RgbdCamera camera_;
   std::optional<Trajectory> ground_truth_;
 };

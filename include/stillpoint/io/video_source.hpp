@@ -11,12 +11,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/io/whole_video.hpp"
 
 namespace stillpoint {
 
@@ -26,12 +28,15 @@ class VideoSource {
  public:
   /// Opens a file.
   /// @param frame_rate_hz  frames a second. Without: each frame's own time, as the file has it.
-  /// @throws Error if the file is missing, is no video that OpenCV reads, or holds no frame; if the rate is not
-  /// positive.
+  /// @throws Error if the file is missing, breaks off (AVI, MP4 and Matroska tell), is no video that OpenCV reads, or
+  ///         holds no frame; if the rate is not positive.
   explicit VideoSource(const std::filesystem::path& file, std::optional<double> frame_rate_hz = std::nullopt)
       : name_(file.string()), given_rate_hz_(frame_rate_hz) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) throw Error(name_ + ": no such file, expected a video");
+    if (const std::uint64_t missing = detail::missing_bytes(file); missing > 0)
+      throw Error(name_ + ": breaks off, " + std::to_string(missing) +
+                  " bytes before the end that it states, expected a whole video");
     open([&] { return capture_.open(name_); }, "a video in a format that this OpenCV reads");
     rate_hz_ = frame_rate_hz.value_or(stated_rate_hz());
   }

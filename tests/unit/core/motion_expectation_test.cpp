@@ -7,6 +7,9 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace stillpoint {
 namespace {
@@ -28,6 +31,72 @@ Motion motion(bool standing, Status status = Status::ok) {
 /// Statuses of a frame that could not be judged: its motion is none.
 constexpr Status kUnusable[] = {Status::first_frame, Status::no_keypoints, Status::too_few_matches, Status::no_depth,
                                 Status::no_consensus};
+
+// ---- What a host may say that is no motion ----
+
+/// Finite, and no motion of a camera all the same.
+std::vector<Pose> absurd_poses() {
+  std::vector<Pose> poses(6, Pose::Identity());
+  poses[0].linear() *= 1e308;
+  poses[1].linear() *= 1.1;
+  poses[2].linear()(0, 0) = -1.0;  // a mirror
+  poses[3].linear().setZero();
+  poses[4].linear()(2, 1) = 1e200;
+  poses[5].linear()(0, 1) = std::numeric_limits<double>::quiet_NaN();
+  return poses;
+}
+
+TEST(MotionExpectation, WhatIsNotRigidIsNotBelieved) {
+  for (const Pose& absurd : absurd_poses()) {
+    MotionExpectation expectation;
+    expectation.advance(1.0, motion(false));
+    expectation.feedback(shift(5.0));
+    expectation.advance(1.1, motion(false));
+    expectation.expect(absurd);
+    expectation.feedback(absurd);
+    const MotionPrior prior = expectation.at(1.2);
+    ASSERT_TRUE(prior.current_from_reference) << absurd.matrix();
+    EXPECT_TRUE(prior.current_from_reference->isApprox(shift(0.1))) << absurd.matrix() << "\nthe velocity holds on";
+    EXPECT_TRUE(prior.predicted->isApprox(shift(0.1)));
+  }
+}
+
+TEST(MotionExpectation, AHundredMetresAFrameAreTheMost) {
+  for (const auto& [metres, is_believed] : {std::pair{99.0, true}, {101.0, false}, {1e308, false}}) {
+    MotionExpectation expectation;
+    expectation.expect(shift(metres));
+    EXPECT_EQ(expectation.at(1.0).current_from_reference.has_value(), is_believed) << metres;
+    MotionExpectation told;  // the world may be as large as it likes
+    const double far_m = metres < 1e300 ? 5e6 : 0.0;
+    told.advance(1.0, motion(false));
+    told.feedback(shift(far_m));
+    told.advance(1.1, motion(false));
+    told.feedback(shift(far_m - metres));
+    ASSERT_TRUE(told.at(1.2).current_from_reference);
+    EXPECT_NEAR(told.at(1.2).current_from_reference->translation().x(), is_believed ? metres : 0.1, 1e-6) << metres;
+  }
+}
+
+TEST(MotionExpectation, ARotationThatHasDriftedIsMadeOne) {
+  Pose drifted = shift(0.2);
+  drifted.linear() *= 1.001;
+  MotionExpectation expectation;
+  expectation.expect(drifted);
+  ASSERT_TRUE(expectation.at(1.0).current_from_reference);
+  EXPECT_TRUE(expectation.at(1.0).current_from_reference->isApprox(shift(0.2), 1e-12));
+}
+
+TEST(MotionExpectation, TimeStampsARoundingApartGiveNoVelocity) {
+  MotionExpectation expectation;
+  expectation.advance(0.0, motion(false));
+  expectation.advance(5e-324, motion(false));
+  for (const std::optional<Pose>& pose : {expectation.at(0.1).current_from_reference, expectation.at(0.1).predicted})
+    if (pose) EXPECT_TRUE(is_plausible_motion(*pose)) << pose->matrix();
+  expectation.advance(0.1, motion(false));
+  expectation.advance(0.2, motion(false));
+  ASSERT_TRUE(expectation.at(0.3).predicted) << "what was wrong is not remembered";
+  EXPECT_TRUE(expectation.at(0.3).predicted->isApprox(shift(0.1), 1e-6)) << expectation.at(0.3).predicted->matrix();
+}
 
 // ---- Does the camera stand? ----
 
@@ -53,6 +122,7 @@ TEST(MotionExpectation, ACameraStandsAsItsLastMotionDid) {
 TEST(MotionExpectation, TheStandIsSaidWithEveryPose) {
   for (const bool standing : {true, false}) {
     MotionExpectation expectation;
+    expectation.advance(0.9, motion(standing));
     expectation.advance(1.0, motion(standing));
     ASSERT_TRUE(expectation.at(1.1).current_from_reference);
     EXPECT_EQ(expectation.at(1.1).standing, standing);

@@ -63,6 +63,17 @@ TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
   EXPECT_EQ(folder.count_files(), 1);
 }
 
+TEST(AtomicFile, WhatDeadProcessesLeftIsNotInTheWay) {
+  const TemporaryFolder folder;
+  const auto target = folder.path() / "out.txt";
+  for (int i = 0; i < 120; ++i) folder.write("out.txt.partial" + std::to_string(i), "of another");
+  AtomicFile file(target);
+  file.write("whole");
+  file.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), "whole");
+  EXPECT_EQ(TemporaryFolder::read(folder.path() / "out.txt.partial7"), "of another");
+}
+
 TEST(AtomicFile, BytesAreWrittenAsTheyAre) {
   const TemporaryFolder folder;
   const auto target = folder.path() / "out.bin";

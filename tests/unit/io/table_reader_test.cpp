@@ -9,8 +9,23 @@
 #include "unit/error_of.hpp"
 #include "unit/temporary_folder.hpp"
 
+#if defined(__unix__)
+#include <sys/stat.h>
+#endif
+
 namespace stillpoint {
 namespace {
+
+#if defined(__unix__)
+// Neither has an end, or a beginning: a reader that opened them would hang.
+TEST(TableReader, PipesAndDevicesAreNoFiles) {
+  const TemporaryFolder folder;
+  const std::string pipe = (folder.path() / "pipe").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& file : {pipe, std::string("/dev/zero")})
+    EXPECT_EQ(error_of([&] { TableReader{file}; }), file + ": found a pipe or a device, expected a file");
+}
+#endif
 
 TEST(TableReader, SkipsCommentsAndEmptyRowsAndCountsThem) {
   const TemporaryFolder folder;

@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -89,6 +91,51 @@ TEST(ReadTumFrames, PairsAgreeWithTheGreedySearchOverAll) {
     std::sort(expected.begin(), expected.end());
     EXPECT_EQ(detail::associate_images(colour, depth, 0.02), expected) << "seed " << seed;
   }
+}
+
+// 64 million pairs are near enough; to list them all takes the better part of a minute.
+TEST(ReadTumFrames, ManyImagesAtNearlyTheSameTimeTakeNoTime) {
+  constexpr std::size_t kImages = 8000;
+  std::vector<detail::ListedImage> colour, depth;
+  for (std::size_t i = 0; i < kImages; ++i) {
+    colour.push_back({1e-6 * static_cast<double>(i), ""});
+    depth.push_back({1e-6 * static_cast<double>(i) + 4e-7, ""});
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  const auto pairs = detail::associate_images(colour, depth, 0.02);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  ASSERT_EQ(pairs.size(), kImages);
+  for (std::size_t i = 0; i < kImages; ++i) EXPECT_EQ(pairs[i], (std::pair{i, i}));
+}
+
+TEST(ReadTumFrames, LeavesOutWhatIsMissingUpToATenth) {
+  const TemporaryFolder folder;
+  std::string rgb, depth, associations;
+  for (int i = 0; i < 20; ++i) {
+    const std::string number = std::to_string(i), time = std::to_string(0.1 * i) + ' ';
+    folder.write("rgb/" + number, "");
+    folder.write("depth/" + number, "");
+    rgb += time + "rgb/" + number + '\n';
+    depth += time + "depth/" + number + '\n';
+    associations += time + "rgb/" + number + ' ' + time + "depth/" + number + '\n';
+  }
+  folder.write("rgb.txt", rgb);
+  folder.write("depth.txt", depth);
+  std::filesystem::remove(folder.path() / "rgb/3");
+  std::filesystem::remove(folder.path() / "depth/7");
+  for (const bool has_associations : {false, true}) {
+    if (has_associations) folder.write("associations.txt", associations);
+    const TumFrames list = list_tum_frames(folder.path());
+    EXPECT_EQ(list.frames.size(), 18u);
+    EXPECT_EQ(list.missing_files, 2u);
+    EXPECT_EQ(list.frames[3].timestamp_s, 0.4);
+    EXPECT_EQ(read_tum_frames(folder.path()).size(), 18u);
+  }
+  for (const char* more : {"rgb/4", "rgb/5", "rgb/6"}) std::filesystem::remove(folder.path() / more);
+  EXPECT_EQ(error_of([&] { list_tum_frames(folder.path()); }),
+            (folder.path() / "associations.txt").string() +
+                ":4: found file name 'rgb/3', expected an image that is there; " + (folder.path() / "rgb/3").string() +
+                " is not, and 4 more of the 40 that the list names are not");
 }
 
 TEST(ReadTumFrames, NamesARowThatIsWrong) {

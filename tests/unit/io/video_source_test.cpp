@@ -68,6 +68,57 @@ TEST_F(VideoSourceTest, ARateOfTheCallersGoesBeforeTheFiles) {
             "frame rate: found -1.000000, expected a positive number of images a second");
 }
 
+TEST_F(VideoSourceTest, AVideoThatBreaksOffIsNamed) {
+  const std::filesystem::path file = video(5);
+  const auto size = std::filesystem::file_size(file);
+  EXPECT_EQ(detail::missing_bytes(file), 0u);
+  std::filesystem::resize_file(file, size - 200);
+  EXPECT_EQ(detail::missing_bytes(file), 200u);
+  EXPECT_EQ(error_of([&] { VideoSource{file}; }),
+            file.string() + ": breaks off, 200 bytes before the end that it states, expected a whole video");
+}
+
+/// What other containers state, and how many bytes of it are missing.
+TEST_F(VideoSourceTest, OtherContainersStateTheirSizeToo) {
+  const auto missing = [&](const std::string& text) { return detail::missing_bytes(folder.write("video.bin", text)); };
+  const std::string ftyp(
+      "\0\0\0\x0c"
+      "ftypisom",
+      12),
+      mdat(
+          "\0\0\0\x10"
+          "mdat12345678",
+          16);
+  EXPECT_EQ(missing(ftyp + mdat), 0u);
+  EXPECT_EQ(missing(ftyp + mdat.substr(0, 11)), 5u);
+  EXPECT_EQ(missing(ftyp + std::string("\0\0\0\x01"
+                                       "mdat\0\0\0\0\0\0\0\x14"
+                                       "123",
+                                       19)),
+            1u);
+  EXPECT_EQ(missing(ftyp +
+                    std::string("\0\0\0\0"
+                                "mdat",
+                                8) +
+                    "as long as it is"),
+            0u);
+  const std::string ebml(
+      "\x1a\x45\xdf\xa3\x82"
+      "ab\x18\x53\x80\x67",
+      11);
+  EXPECT_EQ(missing(ebml + std::string("\x40\x05"
+                                       "12345",
+                                       7)),
+            0u);
+  EXPECT_EQ(missing(ebml + std::string("\x40\x05"
+                                       "12",
+                                       4)),
+            3u);
+  EXPECT_EQ(missing(ebml + std::string("\x01\xff\xff\xff\xff\xff\xff\xff", 8)), 0u) << "not known";
+  for (const std::string& none : {std::string(), std::string("RI"), std::string("RIFF\xff\xff\xff\xff"), ftyp, ebml})
+    EXPECT_EQ(missing(none), 0u);
+}
+
 TEST_F(VideoSourceTest, WhatIsNoVideoIsNamed) {
   const std::string missing = (folder.path() / "none.avi").string();
   EXPECT_EQ(error_of([&] { VideoSource{std::filesystem::path(missing)}; }),

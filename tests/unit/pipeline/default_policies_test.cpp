@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 #include <vector>
 
 #include "clip.hpp"
@@ -83,6 +84,51 @@ TEST_F(DefaultFilter, SmallImagesOfEverySize) {
         for (int u = 0; u < gray.cols; ++u) gray.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random.index(256));
       expect_sound(filter.filter_frame(FrameView(gray, DepthView::tum(depth), 0.1 * f), keypoints), 2);
     }
+  }
+}
+
+TEST_F(DefaultFilter, ImagesOnePixelWideOrHigh) {
+  for (const auto& [width, height] : {std::pair{1, 200}, {200, 1}, {2, 200}, {200, 3}}) {
+    FrameFilter<> filter(Camera(50, 50, 0.5 * width, 0.5 * height, width, height));
+    const cv::Mat depth(height, width, CV_16UC1, cv::Scalar(9000));
+    cv::Mat gray(height, width, CV_8UC1);
+    std::vector<Vector2f> keypoints;
+    for (int i = 0; i < 200; i += 2)
+      keypoints.emplace_back(static_cast<float>(i % width), static_cast<float>(i % height));
+    for (int f = 0; f < 4; ++f) {
+      cv::randu(gray, 0, 255);
+      expect_sound(filter.filter_frame(FrameView(gray, DepthView(depth), 0.1 * f), keypoints), keypoints.size());
+    }
+  }
+}
+
+TEST_F(DefaultFilter, ACameraOfAnotherSizeBeginsAnew) {
+  for (std::size_t f = 0; f < 3; ++f) run(f);
+  const mock::Clip::Frame& frame = clip_.frames[3];
+  cv::Mat gray, depth;
+  cv::resize(frame.gray, gray, {200, 90});
+  cv::resize(frame.depth, depth, {200, 90}, 0, 0, cv::INTER_NEAREST);
+  filter_.camera = Camera(100, 100, 100, 45, 200, 90);
+  ImageBuffer mask;
+  filter_.predicted_keep_mask(frame.time_s, 3, mask);
+  const FrameView other(gray, DepthView(depth), frame.time_s);
+  expect_open(filter_.filter_frame(other, frame.keypoints), count(3), Status::first_frame);
+  const FrameView next(gray, DepthView(depth), frame.time_s + 0.1);
+  expect_sound(filter_.filter_frame(next, frame.keypoints), count(3));
+  filter_.camera = mock::Clip::camera();
+  expect_open(run(5), count(5), Status::first_frame);
+  EXPECT_TRUE(judged(run(6).status()));
+}
+
+TEST_F(DefaultFilter, AbsurdPosesOfTheHostAreNotBelieved) {
+  Pose absurd = Pose::Identity();
+  absurd.linear() *= 1e308;
+  for (std::size_t f = 0; f < 8; ++f) {
+    filter_.expect_motion(absurd);
+    const FrameResult& result = run(f);
+    expect_sound(result, count(f));
+    EXPECT_EQ(judged(result.status()), f > 0) << to_string(result.status());
+    filter_.feedback(absurd);
   }
 }
 

@@ -1,0 +1,144 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// The default filter on a sequence of small frames: any key points, depths, times, boxes, poses, cameras, in any order.
+// One program with shim.cpp and the shim itself, compiled as one file: the filter takes long to compile.
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utility.hpp>
+#include <vector>
+
+#include "bytes.hpp"
+#include "shim.hpp"
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/policies.hpp"
+
+namespace fuzz {
+namespace {
+
+using namespace stillpoint;
+
+Camera make_camera(Bytes& bytes) {
+  const int width = bytes.integer(1, 48), height = bytes.integer(1, 48);
+  const double f = bytes.flag() ? 40.0 : 0.5;
+  return {f, f, 0.5 * width, 0.5 * height, width, height};
+}
+
+/// A texture that moves, so that there is something to match.
+cv::Mat make_gray(Bytes& bytes, int width, int height) {
+  cv::Mat gray(height, width, CV_8UC1);
+  const int shift = bytes.integer(-3, 3), seed = bytes.byte();
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u) {
+      const auto cell = static_cast<unsigned>((u + shift) / 3 * 73 + v / 3 * 151 + seed % 4);
+      gray.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(cell * 2654435761u >> 13);
+    }
+  return gray;
+}
+
+cv::Mat make_depth(Bytes& bytes, int width, int height) {
+  const int kind = bytes.integer(0, 9);
+  if (kind == 0) return {};
+  if (kind == 1) width = bytes.integer(1, 60), height = bytes.integer(1, 60);
+  if (kind <= 5) {
+    cv::Mat depth(height, width, CV_16UC1, cv::Scalar(bytes.integer(0, 65535)));
+    for (int i = bytes.integer(0, 40); i > 0; --i)
+      depth.at<std::uint16_t>(bytes.byte() % height, bytes.byte() % width) =
+          static_cast<std::uint16_t>(bytes.integer(0, 65535));
+    return depth;
+  }
+  cv::Mat depth(height, width, CV_32FC1, cv::Scalar(static_cast<double>(bytes.single(0, 8))));
+  for (int i = bytes.integer(0, 40); i > 0; --i)
+    depth.at<float>(bytes.byte() % height, bytes.byte() % width) = bytes.single(0, 8);
+  return depth;
+}
+
+/// A pose near the identity, of which some numbers may be anything.
+Pose make_pose(Bytes& bytes) {
+  Pose pose = Pose::Identity();
+  for (int i = 0; i < 3; ++i) pose.translation()(i) = bytes.number(-0.2, 0.2);
+  pose.linear() = rotation_from_vector({0.01 * bytes.integer(-9, 9), 0.0, 0.0});
+  if (bytes.integer(0, 3) == 0) pose.linear()(bytes.byte() % 3, bytes.byte() % 3) = bytes.number(-1, 1);
+  return pose;
+}
+
+void set_boxes(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
+  std::vector<Detection> detections(static_cast<std::size_t>(bytes.integer(0, 4)));
+  for (Detection& detection : detections) {
+    detection.box = {bytes.single(-5, 40), bytes.single(-5, 40), bytes.single(-1, 40), bytes.single(-1, 40)};
+    detection.mobility = static_cast<Mobility>(bytes.integer(0, 3));
+    detection.confidence = bytes.single(0, 1);
+    if (!bytes.flag()) continue;
+    BoxMask mask{bytes.integer(-1, 5), bytes.integer(-1, 5), {}};
+    mask.inside.assign(static_cast<std::size_t>(bytes.integer(0, 25)), 1);
+    detection.mask = std::make_shared<const BoxMask>(mask);
+  }
+  if (bytes.flag())
+    filter.prior.detected(bytes.flag() ? timestamp_s : bytes.number(0, 2), detections);
+  else
+    filter.prior.detections = detections;
+}
+
+void filter_one(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
+  int width = filter.camera.width(), height = filter.camera.height();
+  if (bytes.integer(0, 15) == 0) width = bytes.integer(1, 48);
+  const cv::Mat gray = make_gray(bytes, width, height), depth = make_depth(bytes, width, height);
+  std::vector<Vector2f> keypoints;
+  const int step = bytes.integer(2, 12);
+  for (int v = 0; v < height; v += step)
+    for (int u = 0; u < width; u += step) keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v));
+  for (int i = bytes.integer(0, 9); i > 0; --i) keypoints.emplace_back(bytes.single(-2, 50), bytes.single(-2, 50));
+  const FrameResult& result = filter.filter_frame(FrameView(gray, DepthView(depth), timestamp_s), keypoints);
+
+  require(result.size() == keypoints.size());
+  require(result.motion().current_from_reference.matrix().allFinite());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    kept += result.keep()[i];
+    require(std::isfinite(result.verdict(i).log_odds) && std::isfinite(result.depth_m(i)));
+  }
+  require(kept == result.kept_count());
+}
+
+/// Ranges that every option keeps (docs/tuning.md).
+void set_options(Bytes& bytes, FrameFilter<>& filter) {
+  filter.gate.options.false_positive_rate = 1e-6 + 0.4 * bytes.byte() / 255.0;
+  filter.keep_floor.options.fewest_features = static_cast<std::size_t>(bytes.integer(0, 2000));
+  filter.ego_motion.options.max_trials = static_cast<std::size_t>(bytes.integer(1, 300));
+  filter.frame_check.options.longest_gap_s = 0.01 + bytes.byte();
+}
+
+}  // namespace
+
+void run_filter(Bytes& bytes) {
+  constexpr int kMostFrames = 12;
+  FrameFilter<> filter(make_camera(bytes));
+  ImageBuffer mask;
+  double timestamp_s = 1.0;
+  for (int frame = 0; frame < kMostFrames && !bytes.empty(); ++frame) {
+    const int before = bytes.byte();
+    if (before < 16) filter.camera = make_camera(bytes);
+    if (before >= 16 && before < 32) set_options(bytes, filter);
+    if (before >= 32 && before < 48) filter.expect_motion(make_pose(bytes));
+    if (before >= 48 && before < 64) filter.feedback(make_pose(bytes));
+    if (before >= 64 && before < 96) set_boxes(bytes, timestamp_s, filter);
+    if (before >= 96 && before < 112) filter.predicted_keep_mask(bytes.number(0, 2), bytes.integer(-3, 60), mask);
+    if (before >= 112 && before < 120) filter.reset();
+    timestamp_s = before < 248 ? timestamp_s + 1.0 / 32 : bytes.number(0, 3);
+    filter_one(bytes, timestamp_s, filter);
+  }
+}
+
+}  // namespace fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  cv::setNumThreads(1);
+  fuzz::Bytes bytes(data, size);
+  bytes.flag() ? fuzz::run_shim(bytes) : fuzz::run_filter(bytes);
+  return 0;
+}
