@@ -36,11 +36,7 @@ stillpoint::AnyDepthNoise depth_noise_of(const Camera& camera, const Settings& s
   require(model >= 0 && model <= 2, "settings: depth_noise", model, "one of stillpoint_shim::DepthNoise");
   if (settings.depth_noise == DepthNoise::kinect) return stillpoint::KinectNoise{};
   if (settings.depth_noise == DepthNoise::time_of_flight) return stillpoint::TimeOfFlightNoise{};
-  const double baseline_m = settings.stereo_baseline_m, sigma_px = settings.stereo_disparity_sigma_px;
-  require(baseline_m > 0 && std::isfinite(baseline_m), "settings: stereo_baseline_m", baseline_m, "a length in metres");
-  require(sigma_px > 0 && std::isfinite(sigma_px), "settings: stereo_disparity_sigma_px", sigma_px,
-          "a positive number of pixels");
-  return stillpoint::StereoNoise{camera.fx, baseline_m, sigma_px};
+  return stillpoint::StereoNoise{camera.fx, settings.stereo_baseline_m, settings.stereo_disparity_sigma_px};
 }
 
 stillpoint::ImageView view(const detail::Image& image) {
@@ -67,14 +63,14 @@ class Engine {
   Engine(const Camera& camera, const Settings& settings)
       : filter_({camera.fx, camera.fy, camera.cx, camera.cy, camera.width, camera.height, distortion_of(camera)}),
         depth_factor_(settings.depth_factor) {
-    const double rate = settings.false_positive_rate;
     require(depth_factor_ > 0 && std::isfinite(depth_factor_), "settings: depth_factor", depth_factor_,
             "a positive number of units per metre");
-    require(rate >= 1e-6 && rate <= 0.5, "settings: false_positive_rate", rate, "1e-6 to 0.5");
     require(settings.fewest_features >= 0, "settings: fewest_features", settings.fewest_features, "0 or more");
     filter_.depth_noise = depth_noise_of(camera, settings);
-    filter_.gate.options.false_positive_rate = rate;
+    filter_.gate.options.false_positive_rate = settings.false_positive_rate;
     filter_.keep_floor.options.fewest_features = static_cast<std::size_t>(settings.fewest_features);
+    const std::string error = filter_.options_error();  // by the library's own ranges and names
+    if (!error.empty()) throw stillpoint::Error("settings: " + error);
   }
 
   const stillpoint::FrameResult& filter_frame(const Image& image, const Image& depth, double timestamp_s,

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/status.hpp"
 
 namespace stillpoint {
@@ -46,8 +47,13 @@ struct FrameCheck {
   /// Such a frame is no frame: it leaves the filter as it was.
   static constexpr bool rejects(Status status) noexcept {
     return status == Status::no_image || status == Status::unsupported_image || status == Status::size_changed ||
-           status == Status::invalid_time || status == Status::duplicate_frame;
+           status == Status::invalid_time || status == Status::invalid_options || status == Status::duplicate_frame;
   }
 };
+
+template <class Visit>
+void each_option(FrameCheck& stage, Visit& visit) {
+  visit("longest_gap_s", stage.options.longest_gap_s, OptionRange{1e-3, 3600});
+}
 
 }  // namespace stillpoint

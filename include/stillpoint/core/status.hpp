@@ -16,6 +16,7 @@ enum class Status : std::uint8_t {
   unsupported_image,    ///< not 8-bit gray or BGR, or depth neither 16 bit nor float; state untouched
   size_changed,         ///< the image is not of the camera's size; state untouched
   invalid_time,         ///< the time stamp is not finite; state untouched
+  invalid_options,      ///< an option is out of its range, `options_error()` says which; state untouched
   duplicate_frame,      ///< same time stamp as the last frame; state untouched
   out_of_order,         ///< time runs backwards: everything is forgotten, this frame is the new reference
   time_gap,             ///< too long since the last frame: everything is forgotten, this frame is the new reference
@@ -44,6 +45,7 @@ constexpr const char* to_string(Status status) noexcept {
     case Status::unsupported_image: return "unsupported_image";
     case Status::size_changed: return "size_changed";
     case Status::invalid_time: return "invalid_time";
+    case Status::invalid_options: return "invalid_options";
     case Status::duplicate_frame: return "duplicate_frame";
     case Status::out_of_order: return "out_of_order";
     case Status::time_gap: return "time_gap";

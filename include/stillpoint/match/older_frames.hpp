@@ -15,6 +15,7 @@
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/surface_search.hpp"
 
@@ -92,6 +93,13 @@ void predict_places(const Pose& reference_from_current, const Camera& camera, Ma
     cell.predicted = cell.pixel;
     project(cell.point, cell.predicted);
   }
+}
+
+template <class Visit>
+void each_option(OlderFrameChoice& choice, Visit& visit) {
+  visit("slowest_m_s", choice.slowest_m_s, OptionRange{1e-3, 100});
+  visit("pixel_sigma", choice.pixel_sigma, OptionRange{0.01, 100});
+  visit("longest_s", choice.longest_s, OptionRange{0, 3600});
 }
 
 }  // namespace stillpoint

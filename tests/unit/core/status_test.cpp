@@ -29,6 +29,7 @@ constexpr Row kTable[] = {
     {Status::unsupported_image, "unsupported_image", false},
     {Status::size_changed, "size_changed", false},
     {Status::invalid_time, "invalid_time", false},
+    {Status::invalid_options, "invalid_options", false},
     {Status::duplicate_frame, "duplicate_frame", false},
     {Status::out_of_order, "out_of_order", false},
     {Status::time_gap, "time_gap", false},
