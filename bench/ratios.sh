@@ -15,7 +15,7 @@ if (($# > 0)); then
   shift
 fi
 
-bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libbenchmark-dev \
+bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libbenchmark-dev \
   < /dev/null >&2
 
 cmake -S . -B build/ratios -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \

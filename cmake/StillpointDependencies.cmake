@@ -26,6 +26,22 @@ if(STILLPOINT_WITH_OPENCV)
   endif()
 endif()
 
+# What reads YAML, and nothing else. Debian 12 has the target yaml-cpp, later versions yaml-cpp::yaml-cpp.
+if(STILLPOINT_WITH_OPENCV)
+  find_package(yaml-cpp CONFIG QUIET)
+  if(TARGET yaml-cpp::yaml-cpp)
+    set(STILLPOINT_YAML_TARGET yaml-cpp::yaml-cpp)
+  elseif(TARGET yaml-cpp)
+    set(STILLPOINT_YAML_TARGET yaml-cpp)
+  elseif(STILLPOINT_BUILD_TESTS OR STILLPOINT_BUILD_EXAMPLES OR STILLPOINT_BUILD_BENCHMARKS)
+    stillpoint_missing(yaml-cpp libyaml-cpp-dev "Elsewhere, set yaml-cpp_DIR to the folder of yaml-cpp-config.cmake. "
+      "Without tests, examples and benchmarks nothing but stillpoint::io and stillpoint::options needs it.")
+  else()
+    message(STATUS "stillpoint: no targets stillpoint::io and stillpoint::options, because yaml-cpp was not found "
+      "(Debian: libyaml-cpp-dev)")
+  endif()
+endif()
+
 if(STILLPOINT_ONNXRUNTIME)
   if(NOT STILLPOINT_WITH_OPENCV)
     message(FATAL_ERROR "stillpoint: STILLPOINT_ONNXRUNTIME needs STILLPOINT_WITH_OPENCV, which prepares the images")

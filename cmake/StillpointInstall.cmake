@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|io|dnn|onnxruntime|shim]): one export set a component, so that a
+# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|options|io|dnn|onnxruntime|shim]): one export set a component, so that a
 # host that asks for `core` never looks for OpenCV.
 
 include(CMakePackageConfigHelpers)
@@ -23,6 +23,7 @@ install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATAD
 
 set(component_targets_core stillpoint_core)
 set(component_targets_stillpoint stillpoint)
+set(component_targets_options stillpoint_options)
 set(component_targets_io stillpoint_io)
 set(component_targets_dnn stillpoint_dnn)
 set(component_targets_onnxruntime stillpoint_onnxruntime)

@@ -21,13 +21,23 @@ if(STILLPOINT_WITH_OPENCV)
   list(TRANSFORM STILLPOINT_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)
   target_link_libraries(stillpoint INTERFACE stillpoint_core ${opencv_libraries})
 
-  # stillpoint::io: readers and writers of files.
-  add_library(stillpoint_io INTERFACE)
-  add_library(stillpoint::io ALIAS stillpoint_io)
-  set_target_properties(stillpoint_io PROPERTIES EXPORT_NAME io)
-  list(TRANSFORM STILLPOINT_IO_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)
-  target_link_libraries(stillpoint_io INTERFACE stillpoint ${opencv_libraries})
-  list(APPEND STILLPOINT_COMPONENTS stillpoint io)
+  list(APPEND STILLPOINT_COMPONENTS stillpoint)
+
+  if(STILLPOINT_YAML_TARGET)
+    # stillpoint::options: options of the stages from and to files.
+    add_library(stillpoint_options INTERFACE)
+    add_library(stillpoint::options ALIAS stillpoint_options)
+    set_target_properties(stillpoint_options PROPERTIES EXPORT_NAME options)
+    target_link_libraries(stillpoint_options INTERFACE stillpoint ${STILLPOINT_YAML_TARGET})
+
+    # stillpoint::io: readers and writers of files.
+    add_library(stillpoint_io INTERFACE)
+    add_library(stillpoint::io ALIAS stillpoint_io)
+    set_target_properties(stillpoint_io PROPERTIES EXPORT_NAME io)
+    list(TRANSFORM STILLPOINT_IO_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)
+    target_link_libraries(stillpoint_io INTERFACE stillpoint ${STILLPOINT_YAML_TARGET} ${opencv_libraries})
+    list(APPEND STILLPOINT_COMPONENTS options io)
+  endif()
 
   # stillpoint::dnn: detectors/opencv_dnn.hpp. Some builds of OpenCV are without networks.
   list(TRANSFORM STILLPOINT_DNN_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)

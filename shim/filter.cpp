@@ -37,11 +37,7 @@ stillpoint::AnyDepthNoise depth_noise_of(double fx_px, const Settings& settings)
   require(model >= 0 && model <= 2, "settings: depth_noise", model, "one of stillpoint_shim::DepthNoise");
   if (settings.depth_noise == DepthNoise::kinect) return stillpoint::KinectNoise{};
   if (settings.depth_noise == DepthNoise::time_of_flight) return stillpoint::TimeOfFlightNoise{};
-  const double baseline_m = settings.stereo_baseline_m, sigma_px = settings.stereo_disparity_sigma_px;
-  require(baseline_m > 0 && std::isfinite(baseline_m), "settings: stereo_baseline_m", baseline_m, "a length in metres");
-  require(sigma_px > 0 && std::isfinite(sigma_px), "settings: stereo_disparity_sigma_px", sigma_px,
-          "a positive number of pixels");
-  return stillpoint::StereoNoise{fx_px, baseline_m, sigma_px};
+  return stillpoint::StereoNoise{fx_px, settings.stereo_baseline_m, settings.stereo_disparity_sigma_px};
 }
 
 stillpoint::ImageView view(const detail::Image& image) {
@@ -86,16 +82,24 @@ class Engine {
 
   /// Changes all of them or, where it throws, none.
   void change_settings(const Settings& settings) {
-    const double rate = settings.false_positive_rate, factor = settings.depth_factor;
+    const double factor = settings.depth_factor;
     require(factor >= 0 && std::isfinite(factor), "settings: depth_factor", factor,
             "units per metre: 1000 for millimetres, 5000 for TUM's files, 0 without 16-bit depth");
-    require(rate >= 1e-6 && rate <= 0.5, "settings: false_positive_rate", rate, "1e-6 to 0.5");
     require(settings.fewest_features >= 0, "settings: fewest_features", settings.fewest_features, "0 or more");
-    const stillpoint::AnyDepthNoise noise = depth_noise_of(filter_.camera.fx(), settings);
-    depth_factor_ = factor;
-    filter_.depth_noise = noise;
-    filter_.gate.options.false_positive_rate = rate;
+    const stillpoint::AnyDepthNoise noise_before = filter_.depth_noise;
+    const auto gate_before = filter_.gate.options;
+    const auto floor_before = filter_.keep_floor.options;
+    filter_.depth_noise = depth_noise_of(filter_.camera.fx(), settings);
+    filter_.gate.options.false_positive_rate = settings.false_positive_rate;
     filter_.keep_floor.options.fewest_features = static_cast<std::size_t>(settings.fewest_features);
+    const std::string error = filter_.options_error();  // by the library's own ranges and names
+    if (!error.empty()) {
+      filter_.depth_noise = noise_before;
+      filter_.gate.options = gate_before;
+      filter_.keep_floor.options = floor_before;
+      throw stillpoint::Error("settings: " + error);
+    }
+    depth_factor_ = factor;
   }
 
   const stillpoint::FrameResult& filter_frame(const Image& image, const Image& depth, double timestamp_s,

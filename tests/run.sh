@@ -12,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 shift || true
 
-bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libgtest-dev libbenchmark-dev \
+bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libgtest-dev libbenchmark-dev \
   libcli11-dev nlohmann-json3-dev python3-onnx doxygen < /dev/null
 
 started=$SECONDS

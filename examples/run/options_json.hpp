@@ -6,10 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <type_traits>
-
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/filter_frame.hpp"
-#include "stillpoint/options/stage_options.hpp"
 
 namespace stillpoint_run {
 
@@ -17,14 +15,14 @@ namespace stillpoint_run {
 class OptionsJson : public stillpoint::LooksAtOptions<OptionsJson> {
  public:
   template <class T>
-  void operator()(const char* name, T& value) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      map[name] = value;
-    } else if constexpr (stillpoint::has_options<T, OptionsJson>::value) {
-      OptionsJson nested;
-      each_option(value, nested);
-      map[name] = nested.map;
-    }
+  void number(const char* name, T& value) {
+    map[name] = value;
+  }
+  template <class T>
+  void group(const char* name, T& value) {
+    OptionsJson nested;
+    each_option(value, nested);
+    map[name] = nested.map;
   }
   void word(const char* name, const char* text) { map[name] = text; }
 

@@ -4,6 +4,7 @@
 
 // FrameFilter: the whole pipeline. Which of a frame's features stand still?
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "stillpoint/core/motion_expectation.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/optional_stages.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/use_check.hpp"
 #include "stillpoint/fwd.hpp"
@@ -62,7 +64,9 @@ class FrameFilter : private PolicyContract<Policies> {
   const FrameResult& filter_frame(const FrameView& host_frame, const Keypoints& keypoints) {
     result_.begin(read_pixels(keypoints, pixels_), camera.width(), camera.height());
     if (!history_.empty() && !frame_check.has_size(history_.back(1).view().image(), camera)) reset();  // a new camera
-    Status& status = result_.status_ = frame_check(host_frame, expectation_.last_timestamp_s(), camera);
+    Status& status = result_.status_ = options_error().empty()
+                                           ? frame_check(host_frame, expectation_.last_timestamp_s(), camera)
+                                           : Status::invalid_options;
     FrameView frame = host_frame;
     if (!FrameCheck::rejects(status)) {
       mask_prediction.forget();
@@ -91,14 +95,23 @@ class FrameFilter : private PolicyContract<Policies> {
   void expect_motion(const Pose& current_from_reference) { expectation_.expect(current_from_reference); }
 
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
-  /// that its budget goes to what stands still. Everywhere, where the last frame was not judged. It knows no
-  /// keep-floor.
+  /// that its budget goes to what stands still. Everywhere, where the last frame was not judged or an option is out of
+  /// its range. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
   /// @param margin_px    more is dropped around what moves; 8 in all measured figures (docs/adopting.md)
   /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
   void predicted_keep_mask(double timestamp_s, int margin_px, ImageBuffer& mask) {
+    if (!options_error().empty()) return keep_everywhere(camera.width(), camera.height(), mask);
     const DepthView depth = history_.empty() ? DepthView() : history_.back(1).view().depth;
     mask_prediction.paint(timestamp_s, depth, camera.width(), camera.height(), margin_px, mask, workspace_);
+  }
+
+  /// Which option is out of its range, what it is and what it may be, as in "gate.false_positive_rate is 5, expected a
+  /// number from 0.000001 to 0.5"; empty where all are in range. A frame is `invalid_options` as long as one is not.
+  std::string options_error() {
+    OptionCheck check;
+    each_option(*this, check);
+    return check.error();
   }
 
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
@@ -180,5 +193,22 @@ class FrameFilter : private PolicyContract<Policies> {
   Workspace workspace_;
   FrameResult result_;
 };
+
+/// The options of all stages, in the order of the filter's members (core/options.hpp); the camera is none.
+template <class Policies, class Visit>
+void each_option(FrameFilter<Policies>& filter, Visit& visit) {
+  visit("frame_check", filter.frame_check);
+  visit("depth_noise", filter.depth_noise);
+  visit("depth_lookup", filter.depth_lookup);
+  visit("prior", filter.prior);
+  visit("matcher", filter.matcher);
+  visit("ego_motion", filter.ego_motion);
+  visit("scorer", filter.scorer);
+  visit("gate", filter.gate);
+  visit("classifier", filter.classifier);
+  visit("memory", filter.memory);
+  visit("keep_floor", filter.keep_floor);
+  visit("mask_prediction", filter.mask_prediction);
+}
 
 }  // namespace stillpoint

@@ -27,14 +27,14 @@ allowed() {
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
     evaluation | stereo | synthetic) rule="$folder/ includes core/, its own folder and OpenCV"
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
-    io) rule='io/ includes core/, evaluation/ (trajectories), its own folder and OpenCV'
-      printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;
+    io) rule='io/ includes core/, evaluation/ (trajectories), its own folder, OpenCV and yaml-cpp'
+      printf '%s\n' "$std" '<yaml-cpp/*>' "$eigen" "$opencv" "$core*\"" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;
     detectors) rule='detectors/ includes core/, prior/, its own folder, OpenCV and networks'\'' libraries'
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/prior/*"' ;;
     adapters) rule='adapters/ includes the host, core/, verdict/ (what a host takes), the pipeline and its own folder'
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/verdict/*"' '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
     options) rule='options/ includes core/, io/, the pipeline and the stages'
-      printf '%s\n' "$std" "$opencv" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
+      printf '%s\n' "$std" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
         '"stillpoint/policies.hpp"' "${stages[@]}" ;;
     version.hpp | fwd.hpp) rule="$1 includes nothing" ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'

@@ -82,7 +82,7 @@ TEST(StageOptionsOfARun, FileThatIsWrongIsOneLine) {
   write_text(folder / "mine.yaml", "%YAML:1.0\n---\ngate:\n   rate: 0.2\n");
   const Outcome outcome = demo(folder / "out", "--options " + quoted(folder / "mine.yaml"));
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_NE(outcome.error.find("mine.yaml: gate.rate is unknown, expected one of false_positive_rate"),
+  EXPECT_NE(outcome.error.find("mine.yaml:4: gate.rate is unknown, expected one of false_positive_rate"),
             std::string::npos)
       << outcome.error;
   EXPECT_FALSE(fs::exists(folder / "out" / "report.json"));

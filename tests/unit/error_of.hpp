@@ -4,6 +4,7 @@
 
 // What a test reads of an error.
 
+#include <cstddef>
 #include <string>
 
 #include "stillpoint/core/error.hpp"
@@ -19,6 +20,15 @@ std::string error_of(Action&& action) {
     return error.what();
   }
   return "no error";
+}
+
+/// A message without the number of its line: "file:12: what" becomes "file: what".
+inline std::string without_line(std::string message) {
+  const std::size_t end = message.find(": ");
+  if (end == std::string::npos) return message;
+  std::size_t begin = end;
+  while (begin > 0 && message[begin - 1] >= '0' && message[begin - 1] <= '9') --begin;
+  return begin < end && begin > 0 && message[begin - 1] == ':' ? message.erase(begin - 1, end - begin + 1) : message;
 }
 
 }  // namespace stillpoint

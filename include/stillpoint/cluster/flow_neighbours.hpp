@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
@@ -90,5 +91,19 @@ class FlowNeighbours {
     return vote;
   }
 };
+
+template <class Visit>
+void each_option(FlowNeighbours& stage, Visit& visit) {
+  visit("reach_px", stage.options.reach_px, OptionRange{1, 500});
+  visit("same_flow_px", stage.options.same_flow_px, OptionRange{0, 100});
+  visit("same_flow_share", stage.options.same_flow_share, OptionRange{0, 10});
+  visit("own_share", stage.options.own_share, OptionRange{0, 1});
+  visit("lowest", stage.options.lowest, OptionRange{-100, 100});
+  visit("alone", stage.options.alone, OptionRange{-100, 100});
+  visit("dynamic_shift", stage.options.dynamic_shift, OptionRange{-100, 100});
+  visit("outside_shift", stage.options.outside_shift, OptionRange{-100, 100});
+  visit("movable_shift", stage.options.movable_shift, OptionRange{-100, 100});
+  visit("fixed_shift", stage.options.fixed_shift, OptionRange{-100, 100});
+}
 
 }  // namespace stillpoint

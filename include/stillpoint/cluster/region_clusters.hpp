@@ -11,6 +11,7 @@
 
 #include "stillpoint/cluster/k_means.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
@@ -87,5 +88,12 @@ class RegionClusters {
     }
   }
 };
+
+template <class Visit>
+void each_option(RegionClusters& stage, Visit& visit) {
+  visit("features_per_cluster", stage.options.features_per_cluster, OptionRange{1, 1e6});
+  visit("max_iterations", stage.options.max_iterations, OptionRange{1, 1000});
+  visit.seed("seed", stage.options.seed);
+}
 
 }  // namespace stillpoint

@@ -12,6 +12,7 @@
 
 #include "stillpoint/cluster/k_means.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
@@ -237,5 +238,12 @@ class SurfaceClusters {
     return weight > 0 ? kNeighbourShare * sum / weight : kAlone;
   }
 };
+
+template <class Visit>
+void each_option(SurfaceClusters& stage, Visit& visit) {
+  visit("features_per_cluster", stage.options.features_per_cluster, OptionRange{1, 1e6});
+  visit("own_share", stage.options.own_share, OptionRange{0, 1});
+  visit("dynamic_shift", stage.options.dynamic_shift, OptionRange{-100, 100});
+}
 
 }  // namespace stillpoint

@@ -6,8 +6,11 @@
 //
 // A model is anything with `double sigma(double depth_m) const`; a user's own functor is wrapped by `FunctorNoise`.
 
+#include <cstddef>
 #include <utility>
 #include <variant>
+
+#include "stillpoint/core/options.hpp"
 
 namespace stillpoint {
 
@@ -63,5 +66,27 @@ struct AnyDepthNoise {
     return scale * std::visit([depth_m](const auto& noise) { return noise.sigma(depth_m); }, model);
   }
 };
+
+/// The model's own parameters stand beside its name.
+template <class Visit>
+void each_option(AnyDepthNoise& noise, Visit& visit) {
+  std::size_t model = noise.model.index();
+  visit.choice("model", model, "kinect", "stereo", "tof");
+  if (model != noise.model.index()) {
+    if (model == 0) noise.model = KinectNoise{};
+    if (model == 1) noise.model = StereoNoise{};
+    if (model == 2) noise.model = TimeOfFlightNoise{};
+  }
+  if (auto* const stereo = std::get_if<StereoNoise>(&noise.model)) {
+    visit("focal_px", stereo->focal_px, OptionRange{1, 1e5});
+    visit("baseline_m", stereo->baseline_m, OptionRange{1e-3, 100});
+    visit("disparity_sigma_px", stereo->disparity_sigma_px, OptionRange{1e-3, 100});
+  }
+  if (auto* const tof = std::get_if<TimeOfFlightNoise>(&noise.model)) {
+    visit("constant_m", tof->constant_m, OptionRange{1e-6, 10});
+    visit("per_metre", tof->per_metre, OptionRange{0, 10});
+  }
+  visit("scale", noise.scale, OptionRange{1e-3, 1e3});
+}
 
 }  // namespace stillpoint

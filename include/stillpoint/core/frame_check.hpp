@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/status.hpp"
 
 namespace stillpoint {
@@ -53,7 +54,7 @@ struct FrameCheck {
   static constexpr bool rejects(Status status) noexcept {
     return status == Status::no_image || status == Status::unsupported_image || status == Status::depth_unit_missing ||
            status == Status::implausible_depth || status == Status::size_changed || status == Status::invalid_time ||
-           status == Status::duplicate_frame;
+           status == Status::invalid_options || status == Status::duplicate_frame;
   }
 
  private:
@@ -77,5 +78,10 @@ struct FrameCheck {
     return 2 * beyond > known;
   }
 };
+
+template <class Visit>
+void each_option(FrameCheck& stage, Visit& visit) {
+  visit("longest_gap_s", stage.options.longest_gap_s, OptionRange{1e-3, 3600});
+}
 
 }  // namespace stillpoint

@@ -26,11 +26,14 @@ inline void keep_everywhere(int width, int height, ImageBuffer& mask) {
 inline void drop_disc(const Vector2f& centre, int radius_px, ImageBuffer& mask) {
   const ImageView view = mask.view();
   if (!(view.border_distance_px(centre.x(), centre.y()) >= -1.0f - static_cast<float>(radius_px))) return;
-  const double radius_sq_px = static_cast<double>(radius_px) * radius_px;
-  const int u0 = static_cast<int>(std::lround(centre.x())), v0 = static_cast<int>(std::lround(centre.y()));
-  for (int v = std::max(v0 - radius_px, 0); v <= std::min(v0 + radius_px, view.height - 1); ++v) {
-    const int half = static_cast<int>(std::sqrt(radius_sq_px - static_cast<double>(v - v0) * (v - v0)));
-    const int begin = std::max(u0 - half, 0), end = std::min(u0 + half + 1, view.width);
+  // In double: neither the radius nor the place of a far centre need fit into an int once they are added.
+  const double radius = radius_px, u0 = std::round(double{centre.x()}), v0 = std::round(double{centre.y()});
+  const int first = static_cast<int>(std::max(v0 - radius, 0.0));
+  const int last = static_cast<int>(std::min(v0 + radius, view.height - 1.0));
+  for (int v = first; v <= last; ++v) {
+    const double half = std::floor(std::sqrt(std::max(radius * radius - (v - v0) * (v - v0), 0.0)));
+    const int begin = static_cast<int>(std::clamp(u0 - half, 0.0, static_cast<double>(view.width)));
+    const int end = static_cast<int>(std::clamp(u0 + half + 1, 0.0, static_cast<double>(view.width)));
     if (begin < end) std::fill(mask.row<std::uint8_t>(v) + begin, mask.row<std::uint8_t>(v) + end, kMaskDrops);
   }
 }

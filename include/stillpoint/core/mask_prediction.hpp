@@ -17,6 +17,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -79,7 +80,7 @@ class MaskPrediction {
     for (std::size_t i = 0; i < seen_.size(); ++i)
       if (seen_[i].moves && pixel_[i].allFinite())
         mark(i, with_surface(i, around), static_cast<float>(ahead_s) * velocity_px(i, followed), depth, image);
-    drop_marked(std::max(margin_px, 0), mask);
+    drop_marked(std::clamp(margin_px, 0, width + height), mask);
   }
 
  private:
@@ -177,5 +178,10 @@ class MaskPrediction {
   int columns_ = 0, rows_ = 0;
   double timestamp_s_ = std::numeric_limits<double>::quiet_NaN();
 };
+
+template <class Visit>
+void each_option(MaskPrediction& stage, Visit& visit) {
+  visit("reach_px", stage.options.reach_px, OptionRange{1, 200});
+}
 
 }  // namespace stillpoint

@@ -20,6 +20,7 @@ enum class Status : std::uint8_t {
   implausible_depth,    ///< half of the depths lie beyond a kilometre: millimetres taken for metres? State untouched
   size_changed,         ///< the image is not of the camera's size; state untouched
   invalid_time,         ///< the time stamp is not finite, or beyond any date in seconds (nanoseconds?); state untouched
+  invalid_options,      ///< an option is out of its range, `options_error()` says which; state untouched
   duplicate_frame,      ///< same time stamp as the last frame; state untouched
   out_of_order,         ///< time runs backwards: everything is forgotten, this frame is the new reference
   time_gap,             ///< too long since the last frame: everything is forgotten, this frame is the new reference
@@ -46,6 +47,7 @@ constexpr const char* to_string(Status status) noexcept {
     case Status::implausible_depth: return "implausible_depth";
     case Status::size_changed: return "size_changed";
     case Status::invalid_time: return "invalid_time";
+    case Status::invalid_options: return "invalid_options";
     case Status::duplicate_frame: return "duplicate_frame";
     case Status::out_of_order: return "out_of_order";
     case Status::time_gap: return "time_gap";

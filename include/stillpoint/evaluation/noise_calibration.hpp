@@ -92,6 +92,7 @@ class NoiseCalibration {
   }
 
  private:
+  static constexpr double kLeastConstant_m = 1e-6;  // no depth is without noise
   static constexpr std::size_t kBins = 14;
   static constexpr std::size_t kMostSamples = 20000;  // in a bin: a quarter of a minute
   struct Sample {
@@ -129,7 +130,7 @@ class NoiseCalibration {
     if (found.depth.size() > 2) consider(line(found.depth), 2);
   }
 
-  /// Constant and slope that fit σ(z) best, in relative terms; neither below zero.
+  /// Constant and slope that fit σ(z) best, in relative terms; the constant above zero, the slope not below.
   static TimeOfFlightNoise line(const std::vector<DepthNoiseBin>& bins) {
     double one = 0, z = 0, zz = 0, s = 0, sz = 0;
     for (const DepthNoiseBin& bin : bins) {
@@ -144,7 +145,7 @@ class NoiseCalibration {
     noise.per_metre = (one * sz - z * s) / (one * zz - z * z);
     noise.constant_m = (s - noise.per_metre * z) / one;
     if (!(noise.per_metre >= 0)) noise = {s / one, 0.0};
-    if (!(noise.constant_m >= 0)) noise = {0.0, sz / zz};
+    if (!(noise.constant_m > 0)) noise = {kLeastConstant_m, sz / zz};
     return noise;
   }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -52,5 +53,10 @@ class MeanGate {
     return sum / static_cast<double>(count);
   }
 };
+
+template <class Visit>
+void each_option(MeanGate& stage, Visit& visit) {
+  visit("outlier_sigmas", stage.options.outlier_sigmas, OptionRange{0, 1000});
+}
 
 }  // namespace stillpoint

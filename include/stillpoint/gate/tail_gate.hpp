@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -36,7 +37,7 @@ class TailGate {
       0.01;  ///< nats that the level sinks in a frame without any excess, 0 learns nothing; no option in files
 
   Threshold threshold(span<const FeatureScore>, const Regions&, Workspace&) const {
-    return {kLevelOfOnePercent - kDecay * std::log(rate() / 0.01) + raised_};
+    return {kLevelOfOnePercent - kDecay * std::log(options.false_positive_rate / 0.01) + raised_};
   }
 
   /// Learns from the host's features that stood until now.
@@ -50,7 +51,8 @@ class TailGate {
       exceeding += labels[i].log_odds > 0;
     }
     if (known < kFewestStatic) return;
-    const double times_the_rate = static_cast<double>(exceeding) / (rate() * static_cast<double>(known));
+    const double times_the_rate =
+        static_cast<double>(exceeding) / (options.false_positive_rate * static_cast<double>(known));
     raised_ += gain * (std::min(times_the_rate, kMostExcess) - 1.0);
     raised_ = std::clamp(raised_, 0.0, kMostRaised);
   }
@@ -69,9 +71,12 @@ class TailGate {
   static constexpr float kTrusted = 0.95f;           // and their trust: nothing nearby is suspect
   static constexpr std::size_t kFewestStatic = 50;   // of them in a frame; fewer teach nothing
 
-  double rate() const noexcept { return std::clamp(options.false_positive_rate, 1e-6, 0.5); }
-
   double raised_ = 0.0;
 };
+
+template <class Visit>
+void each_option(TailGate& stage, Visit& visit) {
+  visit("false_positive_rate", stage.options.false_positive_rate, OptionRange{1e-6, 0.5});
+}
 
 }  // namespace stillpoint

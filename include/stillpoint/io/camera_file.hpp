@@ -4,8 +4,6 @@
 
 // The camera of a sequence: from camera.yaml, or for an original folder of the TUM benchmark from the folder's name.
 
-#include <opencv2/core.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -91,10 +89,10 @@ inline std::optional<double> read_baseline(const YamlFile& fields) {
 
 }  // namespace detail
 
-/// Reads camera.yaml (OpenCV's FileStorage): `fx fy cx cy` in pixels, `width height`, `depth_factor`; optionally
-/// `model` (pinhole, brown_conrady with k1 k2 p1 p2 and optionally k3, or equidistant with k1 to k4; without it, p1
-/// means brown_conrady and no coefficient a pinhole), and `baseline_m`, the distance in metres of the two cameras that
-/// the depth is from.
+/// Reads camera.yaml, with or without the first line of OpenCV's FileStorage: `fx fy cx cy` in pixels, `width height`,
+/// `depth_factor`; optionally `model` (pinhole, brown_conrady with k1 k2 p1 p2 and optionally k3, or equidistant with
+/// k1 to k4; without it, p1 means brown_conrady and no coefficient a pinhole), and `baseline_m`, the distance in metres
+/// of the two cameras that the depth is from.
 /// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
 ///         three, or coefficients are given that the model does not have.
 inline RgbdCamera read_camera(const std::filesystem::path& file) {

@@ -6,13 +6,9 @@
 //
 // Layout: Burri et al., "The EuRoC micro aerial vehicle datasets", IJRR 2016.
 
-#include <opencv2/core.hpp>
-
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -33,26 +29,16 @@ struct EurocCamera {
 
 namespace detail {
 
-/// The file of a sensor. Unlike OpenCV's own files it has no first line that says it is YAML.
-inline YamlFile read_sensor_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file.string() + ": no such file");
-  std::ifstream stream(file, std::ios::binary);
-  return YamlFile(file, std::string((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>()));
-}
-
 /// A list of finite numbers.
-inline std::vector<double> number_list(const YamlFile& fields, const char* field, const cv::FileNode& list,
+inline std::vector<double> number_list(const YamlFile& fields, const char* field, const YamlNode* list,
                                        std::size_t count, const std::string& expected) {
-  if (list.empty()) fields.fail(field, "is missing", expected);
-  if (!list.isSeq()) fields.fail(field, "is not a list", expected);
-  if (list.size() != count) fields.fail(field, "has " + std::to_string(list.size()) + " entries", expected);
+  if (list == nullptr) fields.fail(field, "is missing", expected);
+  if (list->kind != YamlNode::Kind::list) fields.fail(field, "is not a list", expected);
+  const std::size_t found = list->entries.size();
+  if (found != count) fields.fail(field, "has " + std::to_string(found) + " entries", expected);
   std::vector<double> numbers;
-  for (const cv::FileNode& entry : list) {
-    if (!entry.isReal() && !entry.isInt()) fields.fail(field, "has an entry that is not a number", expected);
-    if (!std::isfinite(entry.real())) fields.fail(field, "has an entry that is not finite", expected);
-    numbers.push_back(entry.real());
-  }
+  for (const YamlNode& entry : list->entries)
+    numbers.push_back(fields.finite(entry, std::string(field) + " has an entry that", expected));
   return numbers;
 }
 
@@ -60,9 +46,9 @@ inline std::vector<double> number_list(const YamlFile& fields, const char* field
 inline Pose read_body_from_sensor(const YamlFile& fields) {
   constexpr double kRounding = 1e-3;  // such files have six digits or more
   const std::string expected = "a rigid transform of 4 x 4 numbers, row by row, in T_BS: data";
-  const cv::FileNode matrix = fields["T_BS"];
-  if (!matrix.empty() && !matrix.isMap()) fields.fail("T_BS", "has no data", expected);
-  const auto numbers = number_list(fields, "T_BS", matrix.empty() ? matrix : matrix["data"], 16, expected);
+  const YamlNode* const matrix = fields.find("T_BS");
+  if (matrix != nullptr && matrix->kind != YamlNode::Kind::map) fields.fail("T_BS", "has no data", expected);
+  const auto numbers = number_list(fields, "T_BS", matrix != nullptr ? matrix->find("data") : nullptr, 16, expected);
   Pose body_from_sensor;
   body_from_sensor.matrix() = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
   const Matrix3d rotation = body_from_sensor.linear();
@@ -80,7 +66,7 @@ inline AnyDistortion read_sensor_lens(const YamlFile& fields) {
   if (model == "none") return {NoDistortion{}};
   const bool is_radial = model == "radial-tangential" || model == "radtan";
   if (!is_radial && model != "equidistant") fields.fail("distortion_model", "is '" + model + "'", models);
-  const auto k = number_list(fields, "distortion_coefficients", fields["distortion_coefficients"], 4,
+  const auto k = number_list(fields, "distortion_coefficients", fields.find("distortion_coefficients"), 4,
                              is_radial ? "the four numbers k1 k2 p1 p2" : "the four numbers k1 k2 k3 k4");
   if (is_radial) return {BrownConrady{k[0], k[1], k[2], k[3], 0.0}};
   return {EquidistantFisheye{k[0], k[1], k[2], k[3]}};
@@ -92,17 +78,17 @@ inline AnyDistortion read_sensor_lens(const YamlFile& fields) {
 /// tangential, equidistant or none) and `distortion_coefficients`.
 /// @throws Error naming the file, and the field or the line, for what is missing or makes no sense.
 inline EurocCamera read_euroc_camera(const std::filesystem::path& file) {
-  const YamlFile fields = detail::read_sensor_file(file);
+  const YamlFile fields(file);
   if (fields.has("camera_model")) {
     const std::string model = fields.text("camera_model", "pinhole");
     if (model != "pinhole") fields.fail("camera_model", "is '" + model + "'", "pinhole");
   }
   const char* const size = "width and height, whole numbers of pixels from 1 to 65535";
-  const auto resolution = detail::number_list(fields, "resolution", fields["resolution"], 2, size);
+  const auto resolution = detail::number_list(fields, "resolution", fields.find("resolution"), 2, size);
   for (const double pixels : resolution)
     if (!(pixels >= 1 && pixels <= 65535) || pixels != std::floor(pixels))
       fields.fail("resolution", "holds " + std::to_string(pixels), size);
-  const auto f = detail::number_list(fields, "intrinsics", fields["intrinsics"], 4, "fu fv cu cv in pixels");
+  const auto f = detail::number_list(fields, "intrinsics", fields.find("intrinsics"), 4, "fu fv cu cv in pixels");
   if (!(f[0] > 0 && f[1] > 0))
     fields.fail("intrinsics", "holds " + std::to_string(f[0] > 0 ? f[1] : f[0]), "positive focal lengths in pixels");
   return {Camera(f[0], f[1], f[2], f[3], static_cast<int>(resolution[0]), static_cast<int>(resolution[1]),

@@ -2,62 +2,48 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A YAML file as OpenCV's FileStorage reads it, with errors that name file and field.
+// A YAML file of named fields, with errors that name file, line and field.
 
-#include <opencv2/core.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
-#include "stillpoint/io/number_format.hpp"
+#include "stillpoint/io/yaml_tree.hpp"
 
 namespace stillpoint {
 
 /// The fields of one file, each checked on the way out. Every member throws `Error` where a field is not as expected.
+/// Read are YAML 1.2 and what OpenCV's FileStorage writes.
 class YamlFile {
  public:
-  /// @throws Error if there is no such file, or it is none that FileStorage reads.
-  explicit YamlFile(const std::filesystem::path& file) : file_(file.string()) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) throw Error(file_ + ": no such file");
-    if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file_ + ": expected a file");
-    try {
-      if (storage_.open(file_, cv::FileStorage::READ)) return;
-    } catch (const cv::Exception& error) {
-      fail_to_parse(error, 0, "YAML as OpenCV's FileStorage writes it, beginning with %YAML:1.0");
-    }
-    throw Error(file_ + ": cannot be read");
-  }
+  static constexpr std::size_t kLargestBytes = 1000000;
 
-  /// @param text  YAML as it stands in the file, without the first line that FileStorage asks for
-  YamlFile(const std::filesystem::path& file, const std::string& text) : file_(file.string()) {
-    try {
-      if (storage_.open("%YAML:1.0\n---\n" + text, cv::FileStorage::READ | cv::FileStorage::MEMORY)) return;
-    } catch (const cv::Exception& error) {
-      fail_to_parse(error, 2, "YAML");
-    }
-    throw Error(file_ + ": cannot be read, expected YAML");
-  }
+  /// @throws Error if there is no such file, or it is no YAML of at most `kLargestBytes`, 32 maps and lists deep.
+  explicit YamlFile(const std::filesystem::path& file) : file_(file.string()), root_(parse_yaml(file_, read(file))) {}
 
-  cv::FileNode root() const { return storage_.root(); }
-  bool has(const char* field) const { return !storage_[field].empty(); }
-  cv::FileNode operator[](const char* field) const { return storage_[field]; }
+  /// A map, or nothing where the file is empty.
+  const YamlNode& root() const noexcept { return root_; }
+  /// Null where there is none.
+  const YamlNode* find(const char* field) const noexcept { return root_.find(field); }
+  bool has(const char* field) const noexcept { return find(field) != nullptr; }
 
   /// A finite number.
   double number(const char* field, const char* expected) const {
-    const cv::FileNode node = storage_[field];
-    if (node.empty()) fail(field, "is missing", expected);
-    if (!node.isReal() && !node.isInt()) fail(field, "is not a number", expected);
-    const double value = node.real();
-    if (!std::isfinite(value)) fail(field, "is not finite", expected);
-    return value;
+    const YamlNode* const node = find(field);
+    if (node == nullptr) fail(field, "is missing", expected);
+    return finite(*node, field, expected);
+  }
+  /// @param name  of the node, for the message
+  double finite(const YamlNode& node, const std::string& name, const std::string& expected) const {
+    const std::optional<double> value = node.number();
+    if (!value) fail(node, name, "is not a number", expected);
+    if (!std::isfinite(*value)) fail(node, name, "is not finite", expected);
+    return *value;
   }
 
   double positive(const char* field, const char* expected) const {
@@ -76,30 +62,40 @@ class YamlFile {
   }
 
   std::string text(const char* field, const char* expected) const {
-    const cv::FileNode node = storage_[field];
-    if (!node.isString()) fail(field, "is not a word", expected);
-    return node.string();
+    const YamlNode* const node = find(field);
+    const bool is_word = node != nullptr && node->kind == YamlNode::Kind::scalar && !node->number();
+    if (!is_word) fail(field, "is not a word", expected);
+    return node->text;
   }
 
+  /// @param field  of the file's map; the message names its line if it is there
   [[noreturn]] void fail(const std::string& field, const std::string& found, const std::string& expected) const {
-    throw Error(file_ + ": " + field + " " + found + ", expected " + expected);
+    const YamlNode* const node = root_.find(field);
+    fail(node != nullptr ? *node : YamlNode{}, field, found, expected);
+  }
+  [[noreturn]] void fail(const YamlNode& node, const std::string& name, const std::string& found,
+                         const std::string& expected) const {
+    const std::string line = node.line > 0 ? ':' + std::to_string(node.line) : std::string();
+    throw Error(file_ + line + ": " + name + ' ' + found + ", expected " + expected);
   }
 
  private:
-  /// Says in which line it is: FileStorage puts "(LINE): reason" where others have the name of a function.
-  /// @param lines_before  that are not in the file
-  [[noreturn]] void fail_to_parse(const cv::Exception& error, int lines_before, const std::string& expected) const {
-    const std::size_t end = error.func.find("): "), begin = error.func.rfind('(', end);
-    std::optional<double> line;
-    if (end != std::string::npos && begin != std::string::npos)
-      line = parse_number(std::string_view(error.func).substr(begin + 1, end - begin - 1));
-    if (!line) throw Error(file_ + ": " + error.err + ", expected " + expected);
-    throw Error(file_ + ':' + std::to_string(std::max(1, static_cast<int>(*line) - lines_before)) + ": " +
-                error.func.substr(end + 3) + ", expected " + expected);
+  static std::string read(const std::filesystem::path& file) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) throw Error(file.string() + ": no such file");
+    if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file.string() + ": expected a file");
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(kLargestBytes + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (stream.bad() || !stream.is_open()) throw Error(file.string() + ": cannot be read");
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > kLargestBytes)
+      throw Error(file.string() + ": is too large, expected at most " + std::to_string(kLargestBytes) + " bytes");
+    return text;
   }
 
   std::string file_;
-  cv::FileStorage storage_;
+  YamlNode root_;
 };
 
 }  // namespace stillpoint

@@ -15,6 +15,7 @@
 #include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/coarse_alignment.hpp"
 #include "stillpoint/match/grid_corners.hpp"
@@ -173,5 +174,11 @@ class CornerTracker {
   std::vector<Start> start_;  // of each corner's search
   Workspace workspace_;
 };
+
+template <class Visit>
+void each_option(CornerTracker& stage, Visit& visit) {
+  visit("cell_px", stage.options.cell_px, OptionRange{8, 512});
+  visit("most_dissimilar", stage.options.most_dissimilar, OptionRange{0, 2});
+}
 
 }  // namespace stillpoint

@@ -16,6 +16,7 @@
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
@@ -213,5 +214,14 @@ class LookBack {
     return (here.z() / there.z() * warp).template cast<float>();
   }
 };
+
+template <class Visit>
+void each_option(LookBack& stage, Visit& visit) {
+  visit("slowest_m_s", stage.options.slowest_m_s, OptionRange{1e-3, 100});
+  visit("pixel_sigma", stage.options.pixel_sigma, OptionRange{0.01, 100});
+  visit("longest_s", stage.options.longest_s, OptionRange{0, 3600});
+  visit("occlusion_sigmas", stage.options.occlusion_sigmas, OptionRange{0, 100});
+  visit("surfaces", stage.surfaces);
+}
 
 }  // namespace stillpoint

@@ -16,6 +16,7 @@
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint {
@@ -32,7 +33,7 @@ class LucasKanade {
     float forward_backward_px = 1.0f;  ///< a match that does not come back this near is lost; 0: not checked
     float border_px = 10.0f;           ///< nearer to either image's border a feature stays out of ego-motion
   };
-  Options options;  ///< out of range, the nearest that OpenCV bears is taken
+  Options options;
 
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
     if (!remembers(reference)) build_pyramid(reference, reference_pyramid_);
@@ -45,8 +46,8 @@ class LucasKanade {
     }
     std::swap(reference_pyramid_, current_pyramid_);
     reference_time_s_ = current.timestamp_s;
-    reference_window_px_ = window_px();
-    reference_levels_ = pyramid_levels();
+    reference_window_px_ = options.window_px;
+    reference_levels_ = options.pyramid_levels;
   }
 
   void reset() noexcept { reference_time_s_ = std::numeric_limits<double>::quiet_NaN(); }
@@ -56,25 +57,23 @@ class LucasKanade {
 
   /// The last frame's pyramid is the reference's, made with the options of now.
   bool remembers(const FrameView& reference) const noexcept {
-    return reference_time_s_ == reference.timestamp_s && reference_window_px_ == window_px() &&
-           reference_levels_ == pyramid_levels();
+    return reference_time_s_ == reference.timestamp_s && reference_window_px_ == options.window_px &&
+           reference_levels_ == options.pyramid_levels;
   }
 
-  // OpenCV throws for windows below 3 pixels and for negative levels; a filter does not.
-  int window_px() const noexcept { return std::clamp(options.window_px, 3, 255); }
-  int pyramid_levels() const noexcept { return std::clamp(options.pyramid_levels, 0, 16); }
-  cv::Size window() const { return {window_px(), window_px()}; }
+  cv::Size window() const { return {options.window_px, options.window_px}; }
 
   void build_pyramid(const FrameView& frame, Pyramid& pyramid) const {
-    cv::buildOpticalFlowPyramid(as_mat(frame.gray), pyramid, window(), pyramid_levels(), true, cv::BORDER_REFLECT_101,
-                                cv::BORDER_CONSTANT, false);
+    cv::buildOpticalFlowPyramid(as_mat(frame.gray), pyramid, window(), options.pyramid_levels, true,
+                                cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
   }
 
   void track(const Pyramid& from_image, const Pyramid& to_image, const std::vector<cv::Point2f>& from,
              std::vector<cv::Point2f>& to, std::vector<unsigned char>& found) const {
     const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, options.iterations,
                                 static_cast<double>(options.precision_px));
-    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), pyramid_levels(), stop);
+    cv::calcOpticalFlowPyrLK(from_image, to_image, from, to, found, cv::noArray(), window(), options.pyramid_levels,
+                             stop);
   }
 
   /// Key points outside the image or not finite are never handed to OpenCV.
@@ -117,5 +116,16 @@ class LucasKanade {
   std::vector<cv::Point2f> from_, to_, back_;
   std::vector<unsigned char> found_, found_back_;
 };
+
+// OpenCV throws for windows below 3 pixels and for negative levels.
+template <class Visit>
+void each_option(LucasKanade& stage, Visit& visit) {
+  visit("window_px", stage.options.window_px, OptionRange{3, 101});
+  visit("pyramid_levels", stage.options.pyramid_levels, OptionRange{0, 16});
+  visit("iterations", stage.options.iterations, OptionRange{1, 100});
+  visit("precision_px", stage.options.precision_px, OptionRange{0, 10});
+  visit("forward_backward_px", stage.options.forward_backward_px, OptionRange{0, 1000});
+  visit("border_px", stage.options.border_px, OptionRange{0, 1000});
+}
 
 }  // namespace stillpoint

@@ -15,6 +15,7 @@
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/surface_search.hpp"
 
@@ -130,6 +131,13 @@ void look_in_older_frames(std::size_t i, span<OlderFrame> frames, bool in_all, c
     const bool is_needed = f + 1 == frames.size() || in_all || !clearly_stands(i, frames);
     if (is_needed && !look_at(frames[f])) return;
   }
+}
+
+template <class Visit>
+void each_option(OlderFrameChoice& choice, Visit& visit) {
+  visit("slowest_m_s", choice.slowest_m_s, OptionRange{1e-3, 100});
+  visit("pixel_sigma", choice.pixel_sigma, OptionRange{0.01, 100});
+  visit("longest_s", choice.longest_s, OptionRange{0, 3600});
 }
 
 }  // namespace stillpoint

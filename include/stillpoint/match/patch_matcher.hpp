@@ -4,6 +4,7 @@
 
 // The matcher of `DefaultPolicies`.
 
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/match/corner_tracker.hpp"
 #include "stillpoint/match/look_back.hpp"
 
@@ -44,5 +45,11 @@ struct PatchMatcher {
 
   void reset() noexcept { corners.reset(); }
 };
+
+template <class Visit>
+void each_option(PatchMatcher& stage, Visit& visit) {
+  visit("corners", stage.corners);
+  visit("older", stage.older);
+}
 
 }  // namespace stillpoint

@@ -15,6 +15,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
@@ -213,5 +214,18 @@ class ProvidedMatches {
   std::vector<std::uint8_t> is_beside_;
   double last_time_s_ = std::numeric_limits<double>::quiet_NaN();
 };
+
+template <class Visit>
+void each_option(ProvidedMatches& stage, Visit& visit) {
+  visit("border_px", stage.options.border_px, OptionRange{0, 1000});
+  visit("same_point_px", stage.options.same_point_px, OptionRange{0, 100});
+  visit("objection_px", stage.options.objection_px, OptionRange{0, 100});
+  visit("known_log_odds", stage.options.known_log_odds, OptionRange{0, 100});
+  visit("occluder_reach_px", stage.options.occluder_reach_px, OptionRange{0, 200});
+  visit("surrounding_px", stage.options.surrounding_px, OptionRange{0, 200});
+  visit("older", stage.older);
+  visit("places", stage.places);
+  visit("surfaces", stage.surfaces);
+}
 
 }  // namespace stillpoint

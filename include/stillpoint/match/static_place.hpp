@@ -15,6 +15,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/sightings.hpp"
 #include "stillpoint/match/surface_search.hpp"
 
@@ -104,6 +105,11 @@ inline bool beside_occluder(const FrameView& frame, const Vector2f& pixel, doubl
 template <class Camera>
 int scaled_px(int length_px, const Camera& camera) noexcept {
   return rounded(pixel_scale(camera) * static_cast<float>(length_px));
+}
+
+template <class Visit>
+void each_option(PlaceTest& test, Visit& visit) {
+  visit("occlusion_sigmas", test.occlusion_sigmas, OptionRange{0, 100});
 }
 
 }  // namespace stillpoint

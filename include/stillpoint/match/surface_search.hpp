@@ -13,6 +13,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/sightings.hpp"
 #include "stillpoint/match/patch.hpp"
 
@@ -77,5 +78,10 @@ struct SurfaceSearch {
   static constexpr double kSteepestCosine = 0.2;  // of a surface to the line of sight; steeper ones are left out
   static constexpr DepthTolerance kSmooth{};      // a surface may bend by so much within its reach
 };
+
+template <class Visit>
+void each_option(SurfaceSearch& search, Visit& visit) {
+  visit("step_px", search.step_px, OptionRange{8, 512});
+}
 
 }  // namespace stillpoint

@@ -12,6 +12,7 @@
 #include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -170,5 +171,12 @@ class EvidenceMemory {
   std::vector<RememberedPoint> remembered_;
   std::vector<Memory> recalled_, recalled_of_cell_;
 };
+
+template <class Visit>
+void each_option(EvidenceMemory& stage, Visit& visit) {
+  visit("log_odds_decay_s", stage.options.log_odds_decay_s, OptionRange{0, 3600});
+  visit("suspicion_rise_s", stage.options.suspicion_rise_s, OptionRange{0, 3600});
+  visit("suspicion_decay_s", stage.options.suspicion_decay_s, OptionRange{0, 3600});
+}
 
 }  // namespace stillpoint

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -46,6 +47,12 @@ span<const std::uint32_t> select_candidates(const Matches& matches, const Region
     if (count >= options.enough) break;
   }
   return {candidates.data(), count};
+}
+
+template <class Visit>
+void each_option(CandidateOptions& candidates, Visit& visit) {
+  visit("region_margin_px", candidates.region_margin_px, OptionRange{0, 1000});
+  visit("enough", candidates.enough, OptionRange{0, 1e6});
 }
 
 }  // namespace stillpoint

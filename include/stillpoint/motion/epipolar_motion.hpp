@@ -18,6 +18,7 @@
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/candidates.hpp"
+#include "stillpoint/motion/epipolar_options.hpp"
 #include "stillpoint/motion/essential.hpp"
 #include "stillpoint/motion/fundamental_eight_point.hpp"
 #include "stillpoint/motion/fundamental_estimator.hpp"
@@ -41,26 +42,8 @@ namespace stillpoint {
 /// | `no_depth`            | fewer than `min_depths` inliers have depth at both ends: t has no length                 |
 class EpipolarMotion {
  public:
-  enum class Solver : std::uint8_t { seven, eight };
-
-  struct Options {
-    CandidateOptions candidates;
-    Solver solver = Solver::seven;  ///< points of a minimal sample (the paper leaves it open)
-    double threshold_px = 0.1;      ///< D of Eq. 2, undistorted pixels (the paper names no unit)
-    double confidence = 0.99;       ///< of having drawn a sample without an outlier
-    std::size_t max_trials = 1000;  ///< OpenCV's; with 7 points enough for 47 % inliers
-    double min_inlier_share = 0.2;  ///< of the candidates
-    double noise_sigmas = 3.0;      ///< within so many of the matches' own standard deviations ...
-    double min_parallax_px = 0.5;   ///< ... and at most so far off, a simpler motion explains them; 0: is not asked
-    double rotation_share = 0.8;    ///< of what F explains: `rotation_only`; two axes of noise against one
-    double planar_share = 0.9;      ///< of the inliers on one plane: degenerate; > 1: not asked
-    std::size_t min_depths = 3;     ///< inliers with depth at both ends that give t its length
-    double pixel_sigma_px = 1.0;    ///< of a match, for the noise of the scale
-    bool printed_eq3 = false;       ///< E = K F Kᵀ, as printed
-    bool unit_translation = false;  ///< leaves ‖t‖ = 1, as printed: Eq. 6 then has a false offset
-    float least_trust = 0.0f;       ///< of a candidate, from memory: above 0 what is suspect takes no part
-    std::uint64_t seed = Random::kDefaultSeed;
-  };
+  using Solver = EpipolarSolver;
+  using Options = EpipolarOptions;
   Options options;
 
   /// @return current_from_reference in metres. Covariance: from the inliers' Sampson errors and the scale's deviation.
@@ -286,5 +269,10 @@ class EpipolarMotion {
     return metric_scale(votes.first(count), options.min_depths);
   }
 };
+
+template <class Visit>
+void each_option(EpipolarMotion& stage, Visit& visit) {
+  each_option(stage.options, visit);
+}
 
 }  // namespace stillpoint

@@ -8,6 +8,7 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
@@ -67,5 +68,11 @@ struct Inertia {
     return diagonal.asDiagonal();
   }
 };
+
+template <class Visit>
+void each_option(Inertia& inertia, Visit& visit) {
+  visit("acceleration_m_s2", inertia.acceleration_m_s2, OptionRange{0, 1000});
+  visit("angular_acceleration_rad_s2", inertia.angular_acceleration_rad_s2, OptionRange{0, 1000});
+}
 
 }  // namespace stillpoint

@@ -11,6 +11,7 @@
 
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -120,5 +121,18 @@ class RigidMotion {
     return covariance.topLeftCorner<3, 3>().trace();
   }
 };
+
+template <class Visit>
+void each_option(RigidMotion& stage, Visit& visit) {
+  visit("candidates", stage.options.candidates);
+  visit("threshold_sigma", stage.options.threshold_sigma, OptionRange{0.1, 100});
+  visit("pixel_sigma_px", stage.options.pixel_sigma_px, OptionRange{0.01, 100});
+  visit("confidence", stage.options.confidence, OptionRange{0.01, 0.999999});
+  visit("max_trials", stage.options.max_trials, OptionRange{1, 1e4});
+  visit("min_inliers", stage.options.min_inliers, OptionRange{3, 1e6});
+  visit("min_inlier_share", stage.options.min_inlier_share, OptionRange{0, 1});
+  visit("max_rotation_sigma", stage.options.max_rotation_sigma, OptionRange{0, 10});
+  visit.seed("seed", stage.options.seed);
+}
 
 }  // namespace stillpoint

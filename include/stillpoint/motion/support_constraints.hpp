@@ -11,6 +11,7 @@
 
 #include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -155,5 +156,12 @@ struct SupportConstraints {
     return median_m > 0 ? median_m : kRoom_m;
   }
 };
+
+template <class Visit>
+void each_option(SupportConstraints& constraints, Visit& visit) {
+  visit("pixel_sigma", constraints.pixel_sigma, OptionRange{0.01, 100});
+  visit("depth_sigmas", constraints.depth_sigmas, OptionRange{0.01, 100});
+  visit("dynamic_trust", constraints.dynamic_trust, OptionRange{0, 1});
+}
 
 }  // namespace stillpoint

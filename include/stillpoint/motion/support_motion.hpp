@@ -15,6 +15,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
@@ -280,5 +281,14 @@ class SupportMotion {
     return Cholesky<6>(information + kHold * Matrix6d::Identity()).inverse();
   }
 };
+
+template <class Visit>
+void each_option(SupportMotion& stage, Visit& visit) {
+  visit("inlier_sigmas", stage.options.inlier_sigmas, OptionRange{0.1, 100});
+  visit("max_trials", stage.options.max_trials, OptionRange{0, 1e4});
+  visit.seed("seed", stage.options.seed);
+  visit("constraints", stage.constraints);
+  visit("inertia", stage.inertia);
+}
 
 }  // namespace stillpoint

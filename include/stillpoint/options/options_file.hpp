@@ -4,58 +4,53 @@
 
 // The options of a filter's stages from and to YAML, so that a run can be repeated and a camera's own noise be kept.
 
-#include <opencv2/core/persistence.hpp>
-
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
+#include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/atomic_file.hpp"
 #include "stillpoint/io/yaml_file.hpp"
 #include "stillpoint/options/replaced_options.hpp"
-#include "stillpoint/options/stage_options.hpp"
+#include "stillpoint/policies.hpp"
 
 namespace stillpoint {
 
 namespace detail {
 
-/// Writes every option of a stage into the map that is open.
+/// Writes every option, one a line, those of a group indented.
 class OptionWriter : public LooksAtOptions<OptionWriter> {
  public:
-  explicit OptionWriter(cv::FileStorage& storage) : storage_(storage) {}
+  explicit OptionWriter(std::string& yaml, std::string indent = "") : yaml_(yaml), indent_(std::move(indent)) {}
 
   template <class T>
-  void operator()(const char* name, T& value) {
-    if constexpr (std::is_same_v<T, bool>) {
-      cv::write(storage_, name, static_cast<int>(value));
-    } else if constexpr (std::is_integral_v<T>) {
-      // FileStorage holds 32 bits; what is longer goes as text.
-      if (value <= static_cast<T>(std::numeric_limits<int>::max()))
-        cv::write(storage_, name, static_cast<int>(value));
-      else
-        cv::write(storage_, name, std::to_string(value));
-    } else if constexpr (std::is_floating_point_v<T>) {
-      cv::write(storage_, name, value);
-    } else if constexpr (has_options<T, OptionWriter>::value) {
-      storage_.startWriteStruct(name, cv::FileNode::MAP);
-      each_option(value, *this);
-      storage_.endWriteStruct();
-    }
+  void number(const char* name, T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+      word(name, value ? "true" : "false");
+    else
+      word(name, option_text(value).c_str());
   }
-  void word(const char* name, const char* text) { cv::write(storage_, name, std::string(text)); }
+  void word(const char* name, const char* text) { yaml_ += indent_ + name + ": " + text + '\n'; }
+  template <class T>
+  void group(const char* name, T& value) {
+    yaml_ += indent_ + name + ":\n";
+    OptionWriter nested(yaml_, indent_ + "  ");
+    each_option(value, nested);
+  }
 
  private:
-  cv::FileStorage& storage_;
+  std::string& yaml_;
+  std::string indent_;
 };
 
 /// Reads the options of a map. Options that are not there keep their values; one that no stage has is an error.
@@ -63,61 +58,76 @@ class OptionReader {
  public:
   /// @param assigns   false: the map is checked and nothing is changed
   /// @param replaced  options of the map that earlier versions had are appended, a line each
-  OptionReader(const YamlFile& file, const cv::FileNode& node, std::string path, bool assigns,
+  OptionReader(const YamlFile& file, const YamlNode& node, std::string path, bool assigns,
                std::vector<std::string>& replaced)
       : file_(file), node_(node), path_(std::move(path)), assigns_(assigns), replaced_(replaced) {}
 
   template <class T>
+  void operator()(const char* name, T& value, const OptionRange& range) {
+    const YamlNode* const entry = find(name);
+    if (entry == nullptr) return;
+    const std::string expected = expected_of<T>(range);
+    if constexpr (std::is_integral_v<T>) {
+      set(value, whole_number<T>(*entry, name, range, expected));
+    } else {
+      const double found = file_.finite(*entry, path_ + name, expected);
+      if (!range.contains(found)) file_.fail(*entry, path_ + name, "is " + option_text(found), expected);
+      set(value, static_cast<T>(found));
+    }
+  }
+  template <class T>
+  void seed(const char* name, T& value) {
+    constexpr OptionRange kAny{0, static_cast<double>(std::numeric_limits<T>::max())};
+    const YamlNode* const entry = find(name);
+    if (entry == nullptr) return;
+    set(value, whole_number<T>(*entry, name, kAny,
+                               "a whole number from 0 to " + std::to_string(std::numeric_limits<T>::max())));
+  }
+  template <class T>
   void operator()(const char* name, T& value) {
-    if constexpr (std::is_arithmetic_v<T>)
-      read(name, value, "a number that is not negative", [](double number) { return number >= 0; });
-    else
+    if constexpr (std::is_same_v<T, bool>) {
+      const YamlNode* const entry = find(name);
+      if (entry == nullptr) return;
+      const bool is_true = entry->text == "true" || entry->text == "1";
+      if (!is_true && entry->text != "false" && entry->text != "0")
+        file_.fail(*entry, path_ + name, "is no flag", "true or false");
+      set(value, is_true);
+    } else if constexpr (has_options<T, OptionReader>::value) {
       read_group(name, value);
-  }
-  template <class T>
-  void positive(const char* name, T& value) {
-    read(name, value, "a number above 0", [](double number) { return number > 0; });
-  }
-  template <class T>
-  void any(const char* name, T& value) {
-    read(name, value, "a number", [](double) { return true; });
+    }
   }
   template <class T, class... Words>
   void choice(const char* name, T& value, Words... words) {
-    const cv::FileNode entry = find(name);
-    if (entry.empty()) return;
-    const std::array<const char*, sizeof...(Words)> all{words...};
-    std::string list;
-    for (const char* word : all) list += (list.empty() ? "" : " or ") + std::string(word);
-    const std::string found = entry.isString() ? entry.string() : std::string();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (found != all[i]) continue;
-      if (assigns_) value = static_cast<T>(i);
-      return;
+    const YamlNode* const entry = find(name);
+    if (entry == nullptr) return;
+    std::size_t index = 0;
+    for (const std::string_view word : {words...}) {
+      if (entry->text == word) return set(value, static_cast<T>(index));
+      ++index;
     }
-    file_.fail(path_ + name, entry.isString() ? "is '" + found + "'" : "is not a word", list);
+    const bool is_word = entry->kind == YamlNode::Kind::scalar;
+    file_.fail(*entry, path_ + name, is_word ? "is '" + entry->text + "'" : "is not a word",
+               expected_of_choice(words...));
   }
 
   /// @throws Error if the map holds what was not asked for and no earlier version had.
   void require_all_known() {
-    for (const cv::FileNode entry : node_) {
-      std::string list;
+    for (const YamlNode& entry : node_.entries) {
       bool is_known = false;
-      for (const std::string& name : known_) {
-        is_known = is_known || name == entry.name();
-        list += (list.empty() ? "" : ", ") + name;
-      }
-      if (!is_known && !collect_replaced(path_ + entry.name(), entry))
-        file_.fail(path_ + entry.name(), "is unknown", list.empty() ? "nothing there" : "one of " + list);
+      for (const std::string_view name : known_) is_known = is_known || name == entry.name;
+      if (is_known || collect_replaced(path_ + entry.name, entry)) continue;
+      std::string list;
+      for (const char* const name : known_) list += (list.empty() ? "one of " : ", ") + std::string(name);
+      file_.fail(entry, path_ + entry.name, "is unknown", list.empty() ? "nothing there" : list);
     }
   }
 
  private:
   /// @return false if an option in there was never one
-  bool collect_replaced(const std::string& name, const cv::FileNode& entry) {
-    if (entry.isMap()) {
-      bool all = entry.size() > 0;
-      for (const cv::FileNode nested : entry) all = collect_replaced(name + '.' + nested.name(), nested) && all;
+  bool collect_replaced(const std::string& name, const YamlNode& entry) {
+    if (entry.kind == YamlNode::Kind::map) {
+      bool all = !entry.entries.empty();
+      for (const YamlNode& nested : entry.entries) all = collect_replaced(name + '.' + nested.name, nested) && all;
       return all;
     }
     const std::optional<std::string_view> replacement = replacement_of(name);
@@ -125,74 +135,55 @@ class OptionReader {
     return replacement.has_value();
   }
 
-  cv::FileNode find(const char* name) {
-    known_.emplace_back(name);
-    return node_[name];
-  }
-
-  template <class T, class InRange>
-  void read(const char* name, T& value, const char* expected, const InRange& in_range) {
-    const cv::FileNode entry = find(name);
-    if (entry.empty()) return;
-    if constexpr (std::is_same_v<T, bool>) {
-      if (!entry.isInt() || (static_cast<int>(entry) & ~1) != 0) file_.fail(path_ + name, "is no flag", "0 or 1");
-      if (assigns_) value = static_cast<int>(entry) != 0;
-    } else if constexpr (std::is_integral_v<T>) {
-      const T found = whole_number<T>(name, entry);
-      if (!in_range(static_cast<double>(found))) file_.fail(path_ + name, "is " + std::to_string(found), expected);
-      if (assigns_) value = found;
-    } else {
-      if (!entry.isReal() && !entry.isInt()) file_.fail(path_ + name, "is not a number", expected);
-      const double found = entry.real();
-      if (!std::isfinite(static_cast<T>(found))) file_.fail(path_ + name, "is not finite", expected);
-      if (!in_range(found)) file_.fail(path_ + name, "is " + std::to_string(found), expected);
-      if (assigns_) value = static_cast<T>(found);
-    }
+  const YamlNode* find(const char* name) {
+    known_.push_back(name);
+    return node_.find(name);
   }
 
   template <class T>
-  T whole_number(const char* name, const cv::FileNode& entry) const {
-    const std::string text = entry.isInt()      ? std::to_string(static_cast<int>(entry))
-                             : entry.isString() ? entry.string()
-                                                : std::string();
+  void set(T& value, T found) const {
+    if (assigns_) value = found;
+  }
+
+  template <class T>
+  T whole_number(const YamlNode& entry, const char* name, const OptionRange& range, const std::string& expected) const {
+    const std::string& text = entry.text;
     T value{};
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec != std::errc() || result.ptr != text.data() + text.size())
-      file_.fail(path_ + name, text.empty() ? "is no whole number" : "is " + text,
-                 "a whole number from " + std::to_string(std::is_signed_v<T> ? 0 : std::numeric_limits<T>::min()) +
-                     " to " + std::to_string(std::numeric_limits<T>::max()));
+    const bool is_whole = result.ec == std::errc() && result.ptr == text.data() + text.size();
+    if (!is_whole || !range.contains(static_cast<double>(value)))
+      file_.fail(entry, path_ + name, text.empty() ? "is no whole number" : "is " + text, expected);
     return value;
   }
 
   template <class T>
   void read_group(const char* name, T& group) {
-    if constexpr (has_options<T, OptionReader>::value) {
-      const cv::FileNode entry = find(name);
-      if (entry.empty()) return;
-      if (!entry.isMap()) file_.fail(path_ + name, "is no map", "options as name: value, one a line and indented");
-      if constexpr (std::is_same_v<T, AnyDepthNoise>) {  // its options depend on its model: a copy is always assigned
-        AnyDepthNoise copy = group;
-        read_into(name, entry, copy, true);
-        if (assigns_) group = copy;
-      } else {
-        read_into(name, entry, group, assigns_);
-      }
+    const YamlNode* const entry = find(name);
+    if (entry == nullptr || entry->kind == YamlNode::Kind::nothing) return;
+    if (entry->kind != YamlNode::Kind::map)
+      file_.fail(*entry, path_ + name, "is no map", "options as name: value, one a line and indented");
+    if constexpr (std::is_same_v<T, AnyDepthNoise>) {  // its options depend on its model: a copy is always assigned
+      AnyDepthNoise copy = group;
+      read_into(name, *entry, copy, true);
+      set(group, copy);
+    } else {
+      read_into(name, *entry, group, assigns_);
     }
   }
 
   template <class T>
-  void read_into(const char* name, const cv::FileNode& entry, T& group, bool assigns) {
+  void read_into(const char* name, const YamlNode& entry, T& group, bool assigns) {
     OptionReader nested(file_, entry, path_ + name + ".", assigns, replaced_);
     each_option(group, nested);
     nested.require_all_known();
   }
 
   const YamlFile& file_;
-  cv::FileNode node_;
+  const YamlNode& node_;
   std::string path_;
   bool assigns_;
   std::vector<std::string>& replaced_;
-  std::vector<std::string> known_;
+  std::vector<const char*> known_;
 };
 
 }  // namespace detail
@@ -203,13 +194,13 @@ class ReplacedOptionsError : public Error {
   using Error::Error;
 };
 
-/// All options of a filter's stages as YAML (OpenCV's FileStorage), one map a stage.
+/// All options of a filter's stages as YAML, one map a stage.
 template <class Policies>
 std::string options_as_yaml(FrameFilter<Policies>& filter) {
-  cv::FileStorage storage("options.yaml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
-  detail::OptionWriter writer(storage);
+  std::string yaml;
+  detail::OptionWriter writer(yaml);
   each_option(filter, writer);
-  return storage.releaseAndGetString();
+  return yaml;
 }
 
 /// Writes `options_as_yaml` to a file, all of it or none.
@@ -222,8 +213,9 @@ void write_options(const std::filesystem::path& file, FrameFilter<Policies>& fil
 }
 
 /// Sets the options that a file names; the others stay. Call it before the first frame.
-/// @throws Error naming file and option, what was found and what was expected: an option that no stage of this filter
-///         has, a value of the wrong kind or out of range. `ReplacedOptionsError` naming what replaced each, where
+/// @throws Error naming file, line and option, what was found and what was expected: an option that no stage of this
+/// filter
+///         has, a value of the wrong kind or out of its range. `ReplacedOptionsError` naming what replaced each, where
 ///         it holds options that earlier versions had. Then no option was changed.
 template <class Policies>
 void read_options(const std::filesystem::path& file, FrameFilter<Policies>& filter) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 
 namespace stillpoint {
@@ -51,5 +52,10 @@ class BoxPrior {
 struct NoPrior {
   void regions(const FrameView&, Regions& regions) const noexcept { regions.detections.clear(); }
 };
+
+template <class Visit>
+void each_option(BoxPrior& stage, Visit& visit) {
+  visit("lowest_confidence", stage.options.lowest_confidence, OptionRange{0, 1});
+}
 
 }  // namespace stillpoint

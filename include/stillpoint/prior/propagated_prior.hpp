@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -185,5 +186,11 @@ class PropagatedPrior : public ForegroundPrior {
   double last_answer_s_ = -std::numeric_limits<double>::infinity();
   Workspace workspace_;
 };
+
+template <class Visit>
+void each_option(PropagatedPrior& stage, Visit& visit) {
+  each_option(static_cast<BoxPrior&>(stage), visit);
+  visit("longest_s", stage.carrying.longest_s, OptionRange{0, 3600});
+}
 
 }  // namespace stillpoint

@@ -10,6 +10,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -53,5 +54,12 @@ class OffsetScore {
  private:
   static constexpr double kHalfPi = 1.5707963267948966;
 };
+
+template <class Visit>
+void each_option(OffsetScore& stage, Visit& visit) {
+  visit("angle_weight", stage.options.angle_weight, OptionRange{0, 1000});
+  visit("length_weight", stage.options.length_weight, OptionRange{0, 1000});
+  visit("printed_eq8", stage.options.printed_eq8);
+}
 
 }  // namespace stillpoint

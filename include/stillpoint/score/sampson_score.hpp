@@ -13,6 +13,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
@@ -131,5 +132,15 @@ class SampsonScore {
 
   std::vector<double> distances_;
 };
+
+template <class Visit>
+void each_option(SampsonScore& stage, Visit& visit) {
+  visit("least_pixel_sigma", stage.options.least_pixel_sigma, OptionRange{0.01, 100});
+  visit("most_pixel_sigma", stage.options.most_pixel_sigma, OptionRange{0.01, 100});
+  visit("turned_parallax_px", stage.options.turned_parallax_px, OptionRange{0, 100});
+  visit("most_evidence", stage.options.most_evidence, OptionRange{0, 100});
+  visit("expected", stage.options.expected, OptionRange{0, 100});
+  visit("least_trust", stage.options.least_trust, OptionRange{0, 1});
+}
 
 }  // namespace stillpoint

@@ -13,6 +13,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -130,5 +131,14 @@ class SightingScore {
     return evidence;
   }
 };
+
+template <class Visit>
+void each_option(SightingScore& stage, Visit& visit) {
+  visit("pixel_sigma", stage.options.pixel_sigma, OptionRange{0.01, 100});
+  visit("depth_sigmas", stage.options.depth_sigmas, OptionRange{0.01, 100});
+  visit("most_from_place", stage.options.most_from_place, OptionRange{0, 100});
+  visit("most_from_look", stage.options.most_from_look, OptionRange{0, 100});
+  visit("most_from_depth", stage.options.most_from_depth, OptionRange{0, 100});
+}
 
 }  // namespace stillpoint

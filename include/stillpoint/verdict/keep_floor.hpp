@@ -12,6 +12,7 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -75,5 +76,11 @@ class KeepFloor {
     return part(pixel.y(), image.height, kRows) * kColumns + part(pixel.x(), image.width, kColumns);
   }
 };
+
+template <class Visit>
+void each_option(KeepFloor& stage, Visit& visit) {
+  visit("fewest_features", stage.options.fewest_features, OptionRange{0, 1e6});
+  visit("fewest_cells", stage.options.fewest_cells, OptionRange{0, 12});
+}
 
 }  // namespace stillpoint

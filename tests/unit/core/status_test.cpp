@@ -31,6 +31,7 @@ constexpr Row kTable[] = {
     {Status::implausible_depth, "implausible_depth", false},
     {Status::size_changed, "size_changed", false},
     {Status::invalid_time, "invalid_time", false},
+    {Status::invalid_options, "invalid_options", false},
     {Status::duplicate_frame, "duplicate_frame", false},
     {Status::out_of_order, "out_of_order", false},
     {Status::time_gap, "time_gap", false},

@@ -31,10 +31,10 @@ std::string yaml(const Fields& changes = {}) {
 std::string message_of(const std::string& text) {
   const TemporaryFolder folder;
   const auto file = folder.write("camera.yaml", text);
-  const std::string message = error_of([&] { read_camera(file); });
-  const std::string where = file.string() + ":";
+  const std::string message = without_line(error_of([&] { read_camera(file); }));
+  const std::string where = file.string() + ": ";
   EXPECT_EQ(message.substr(0, where.size()), where) << message;
-  return message.size() > where.size() ? message.substr(where.size() + 1) : "";
+  return message.size() > where.size() ? message.substr(where.size()) : "";
 }
 
 RgbdCamera camera_of(const Fields& changes) {
@@ -128,7 +128,7 @@ TEST(ReadCamera, NamesAModelOrCoefficientThatDoesNotFit) {
 
 TEST(ReadCamera, FileThatIsNoYamlIsNamed) {
   for (const std::string& text :
-       {std::string("fx: 1\n"), std::string(), std::string("\x01\x02\xff", 3),
+       {std::string("[fx, fy]\n"), std::string(), std::string("\x01\x02\xff", 3),
         std::string("%YAML:1.0\n---\nfx: [1, 2\n"), std::string("%YAML:1.0\n---\n  : :\n}")}) {
     const std::string message = message_of(text);
     EXPECT_TRUE(message.find("expected") != std::string::npos || message == "cannot be read") << message;
@@ -138,10 +138,23 @@ TEST(ReadCamera, FileThatIsNoYamlIsNamed) {
 TEST(ReadCamera, TheLineOfBrokenYamlIsNamed) {
   const TemporaryFolder folder;
   const auto file = folder.write("camera.yaml", "%YAML:1.0\n---\nfx: 5\n   fy: 6\n");
+  EXPECT_EQ(error_of([&] { read_camera(file); }), file.string() + ":4: illegal map value, expected YAML");
+}
+
+TEST(ReadCamera, TheLineOfAWrongFieldIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("camera.yaml", "fx: 5\n\nfy: wide\n");
   EXPECT_EQ(error_of([&] { read_camera(file); }),
-            file.string() +
-                ":4: Incorrect indentation, expected YAML as OpenCV's FileStorage writes it, beginning with "
-                "%YAML:1.0");
+            file.string() + ":3: fy is not a number, expected a positive focal length in pixels");
+}
+
+// As robots have it, and as OpenCV writes it.
+TEST(ReadCamera, TakesPlainYaml) {
+  const TemporaryFolder folder;
+  const std::string with_first_line = yaml({{"k1", "0.1"}, {"k2", "0"}, {"p1", "0"}, {"p2", "0"}});
+  const std::string plain = with_first_line.substr(with_first_line.find("---\n") + 4);
+  for (const std::string& text : {plain, "---\n" + plain, "%YAML 1.2\n---\n" + plain, "# a camera\n" + plain})
+    EXPECT_EQ(read_camera(folder.write("camera.yaml", text)).camera.cy(), 240.25) << text;
 }
 
 TEST(ReadImageCamera, NeedsNoDepthFactorAndTakesABaseline) {
@@ -155,9 +168,9 @@ TEST(ReadImageCamera, NeedsNoDepthFactorAndTakesABaseline) {
   EXPECT_EQ(camera_of({{"baseline_m", "0.12"}}).baseline_m, 0.12);
   EXPECT_FALSE(camera_of({}).baseline_m);
   const std::string where = (folder.path() / "camera.yaml").string() + ": ";
-  EXPECT_EQ(error_of([&] {
+  EXPECT_EQ(without_line(error_of([&] {
               read({{"baseline_m", "-0.1"}});
-            }),
+            })),
             where + "baseline_m is -0.100000, expected the positive distance of the two cameras in metres");
   EXPECT_EQ(error_of([&] { read({{"fx", ""}}); }), where + "fx is missing, expected a positive focal length in pixels");
 }

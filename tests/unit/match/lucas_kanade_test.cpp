@@ -139,18 +139,6 @@ TEST(LucasKanade, NearTheBorderOfTheReferenceIsMarkedToo) {
   EXPECT_EQ(matches.state[1], MatchState::matched);    // was at 12
 }
 
-TEST(LucasKanade, OptionsOutOfRangeDoNotThrow) {
-  const cv::Mat image = texture(0, 0);
-  for (const int window_px : {-5, 0, 2, 100000})
-    for (const int levels : {-3, 100}) {
-      LucasKanade matcher;
-      matcher.options.window_px = window_px;
-      matcher.options.pyramid_levels = levels;
-      matcher.options.iterations = -1;
-      EXPECT_NO_THROW(match(matcher, frame(image, 1.0), frame(image, 1.1), {{60, 60}})) << window_px << ' ' << levels;
-    }
-}
-
 TEST(LucasKanade, WhatLeftTheImageIsLost) {
   const cv::Mat reference = texture(0, 0), current = texture(12, 0);  // came in from the left
   LucasKanade matcher;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -38,24 +39,23 @@ class OptionsFile : public testing::Test {
   FrameFilter<> filter{any_camera()};
 };
 
-/// Adds one to every number, turns flags and takes the next choice.
+/// Moves every number towards the end of its range that is farther away, turns flags and takes the next choice.
 struct Change {
+  template <class T>
+  void operator()(const char*, T& value, const OptionRange& range) {
+    const auto now = static_cast<double>(value);
+    value = static_cast<T>(now + 0.3 * ((range.most - now > now - range.least ? range.most : range.least) - now));
+  }
   template <class T>
   void operator()(const char*, T& value) {
     if constexpr (std::is_same_v<T, bool>)
       value = !value;
-    else if constexpr (std::is_arithmetic_v<T>)
-      value = static_cast<T>(value + T{1} + T{1} / T{4});  // a quarter of an integer is none
     else if constexpr (has_options<T, Change>::value)
       each_option(value, *this);
   }
   template <class T>
-  void positive(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T>
-  void any(const char* name, T& value) {
-    (*this)(name, value);
+  void seed(const char*, T& value) {
+    ++value;
   }
   template <class T, class... Words>
   void choice(const char*, T& value, Words...) {
@@ -65,7 +65,7 @@ struct Change {
 
 template <class Policies>
 class OptionsOf : public testing::Test {};
-using PolicySets = testing::Types<DefaultPolicies, PaperPolicies, PaperRigidPolicies>;
+using PolicySets = testing::Types<DefaultPolicies, PaperPolicies, PaperRigidPolicies, MonocularPolicies>;
 TYPED_TEST_SUITE(OptionsOf, PolicySets);
 
 TYPED_TEST(OptionsOf, EveryOptionSurvivesItsFile) {
@@ -102,24 +102,17 @@ constexpr std::size_t field_count() {
 }
 
 /// Counts what is visited, groups as one.
-struct Count {
+struct Count : LooksAtOptions<Count> {
   std::size_t visited = 0;
   template <class T>
-  void operator()(const char*, T&) {
+  void number(const char*, T&) {
     ++visited;
   }
   template <class T>
-  void positive(const char*, T&) {
+  void group(const char*, T&) {
     ++visited;
   }
-  template <class T>
-  void any(const char*, T&) {
-    ++visited;
-  }
-  template <class T, class... Words>
-  void choice(const char*, T&, Words...) {
-    ++visited;
-  }
+  void word(const char*, const char*) { ++visited; }
 };
 template <class Group>
 std::size_t visited(Group&& group) {
@@ -147,10 +140,12 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(Inertia()), field_count<Inertia>());
   EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints, inertia";
   EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
+  EXPECT_EQ(visited(SampsonScore()), field_count<SampsonScore::Options>());
   EXPECT_EQ(visited(SightingScore()), field_count<SightingScore::Options>());
   EXPECT_EQ(visited(MeanGate()), field_count<MeanGate::Options>());
   EXPECT_EQ(visited(TailGate()), field_count<TailGate::Options>());
   EXPECT_EQ(visited(RegionClusters()), field_count<RegionClusters::Options>());
+  EXPECT_EQ(visited(FlowNeighbours()), field_count<FlowNeighbours::Options>());
   EXPECT_EQ(visited(SurfaceClusters()), field_count<SurfaceClusters::Options>());
   EXPECT_EQ(visited(EvidenceMemory()), field_count<EvidenceMemory::Options>());
   EXPECT_EQ(visited(KeepFloor()), field_count<KeepFloor::Options>());
@@ -183,31 +178,65 @@ TEST_F(OptionsFile, SeedsKeepTheirSixtyFourBits) {
   EXPECT_EQ(restored.ego_motion.options.seed, 0xfedc'ba98'7654'3210u);
 }
 
-TEST_F(OptionsFile, ErrorsNameFileOptionFoundAndExpected) {
+TEST_F(OptionsFile, ErrorsNameFileLineOptionFoundAndExpected) {
   const std::string name = (folder.path() / "options.yaml").string();
-  EXPECT_EQ(error("gate:\n   rate: 0.1\n").substr(0, name.size() + 56),
-            name + ": gate.rate is unknown, expected one of false_positive_r");
-  EXPECT_EQ(error("gait:\n   rate: 0.1\n").substr(0, name.size() + 48),
-            name + ": gait is unknown, expected one of frame_check, ");
-  EXPECT_EQ(error("gate: 3\n"), name + ": gate is no map, expected options as name: value, one a line and indented");
+  EXPECT_EQ(error("gate:\n   rate: 0.1\n"), name + ":4: gate.rate is unknown, expected one of false_positive_rate");
+  EXPECT_EQ(error("gait:\n   rate: 0.1\n").substr(0, name.size() + 50),
+            name + ":3: gait is unknown, expected one of frame_check, ");
+  EXPECT_EQ(error("gate: 3\n"), name + ":3: gate is no map, expected options as name: value, one a line and indented");
   EXPECT_EQ(error("gate:\n   false_positive_rate: high\n"),
-            name + ": gate.false_positive_rate is not a number, expected a number above 0");
+            name + ":4: gate.false_positive_rate is not a number, expected a number from 0.000001 to 0.5");
   EXPECT_EQ(error("gate:\n   false_positive_rate: 0.\n"),
-            name + ": gate.false_positive_rate is 0.000000, expected a number above 0");
-  EXPECT_EQ(error("scorer:\n   depth_sigmas: -0.5\n"),
-            name + ": scorer.depth_sigmas is -0.500000, expected a number that is not negative");
+            name + ":4: gate.false_positive_rate is 0, expected a number from 0.000001 to 0.5");
+  EXPECT_EQ(error("gate:\n   false_positive_rate: 5\n"),
+            name + ":4: gate.false_positive_rate is 5, expected a number from 0.000001 to 0.5");
   EXPECT_EQ(error("scorer:\n   pixel_sigma: .Nan\n"),
-            name + ": scorer.pixel_sigma is not finite, expected a number above 0");
-  EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 0\n"),
-            name + ": matcher.corners.cell_px is 0, expected a number above 0");
+            name + ":4: scorer.pixel_sigma is not finite, expected a number from 0.01 to 100");
+  EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 1\n"),
+            name + ":5: matcher.corners.cell_px is 1, expected a whole number from 8 to 512");
   EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: 24.5\n"),
-            name + ": matcher.corners.cell_px is no whole number, expected a whole number from 0 to 2147483647");
-  EXPECT_EQ(error("keep_floor:\n   fewest_features: -1\n"),
-            name + ": keep_floor.fewest_features is -1, expected a whole number from 0 to 18446744073709551615");
+            name + ":5: matcher.corners.cell_px is 24.5, expected a whole number from 8 to 512");
+  EXPECT_EQ(error("matcher:\n   corners:\n      cell_px: [24]\n"),
+            name + ":5: matcher.corners.cell_px is no whole number, expected a whole number from 8 to 512");
+  EXPECT_EQ(error("keep_floor:\n   fewest_features: 18446744073709551616\n"),
+            name + ":4: keep_floor.fewest_features is 18446744073709551616, expected a whole number from 0 to 1000000");
+  EXPECT_EQ(error("ego_motion:\n   seed: -1\n"),
+            name + ":4: ego_motion.seed is -1, expected a whole number from 0 to 18446744073709551615");
   EXPECT_EQ(error("depth_noise:\n   model: sonar\n"),
-            name + ": depth_noise.model is 'sonar', expected kinect or stereo or tof");
+            name + ":4: depth_noise.model is 'sonar', expected kinect or stereo or tof");
   EXPECT_EQ(error("depth_noise:\n   model: tof\n   baseline_m: 0.1\n"),
-            name + ": depth_noise.baseline_m is unknown, expected one of model, constant_m, per_metre, scale");
+            name + ":5: depth_noise.baseline_m is unknown, expected one of model, constant_m, per_metre, scale");
+  EXPECT_EQ(error("- gate\n"), name + ":3: is no map, expected fields as name: value");
+  EXPECT_EQ(error("gate: " + std::string(40000, '[') + std::string(40000, ']')),
+            name + ":3: nested more than 32 deep, expected fields as name: value");
+}
+
+// What robots have: no first line of OpenCV's. A stage without an option is none.
+TEST_F(OptionsFile, PlainYamlIsRead) {
+  read_options(folder.write("options.yaml", "# mine\ngate:\nscorer: {pixel_sigma: 2, depth_sigmas: 3}\n"), filter);
+  EXPECT_EQ(filter.scorer.options.pixel_sigma, 2.0);
+  EXPECT_EQ(filter.scorer.options.depth_sigmas, 3.0);
+  read_options(folder.write("options.yaml", ""), filter);
+  FrameFilter<PaperPolicies> paper(any_camera());
+  for (const char* flag : {"true", "1"}) {
+    paper.scorer.options.printed_eq8 = false;
+    read_options(folder.write("options.yaml", std::string("scorer:\n  printed_eq8: ") + flag + '\n'), paper);
+    EXPECT_TRUE(paper.scorer.options.printed_eq8) << flag;
+  }
+  EXPECT_NE(error_of([&] {
+              read_options(folder.write("options.yaml", "scorer:\n  printed_eq8: 2\n"), paper);
+            }).find("scorer.printed_eq8 is no flag, expected true or false"),
+            std::string::npos);
+}
+
+// As versions wrote it that had OpenCV for it: what is longer than 32 bits was text.
+TEST_F(OptionsFile, WhatOpenCvWroteIsRead) {
+  read_options(file("gate:\n   false_positive_rate: 5.0000000000000003e-02\nego_motion:\n   max_trials: 70\n"
+                    "   seed: \"373949006231\"\n"),
+               filter);
+  EXPECT_EQ(filter.gate.options.false_positive_rate, 0.05);
+  EXPECT_EQ(filter.ego_motion.options.max_trials, 70u);
+  EXPECT_EQ(filter.ego_motion.options.seed, 373949006231u);
 }
 
 // ---- Options of earlier versions ----
@@ -224,40 +253,33 @@ std::string yaml_of(std::string_view name) {
 }
 
 /// All names of a filter's options, with their stages.
-struct Names {
+struct Names : LooksAtOptions<Names> {
   std::vector<std::string> found;
   std::string path;
+  std::map<std::string, std::string> text_of;
   template <class T>
-  void operator()(const char* name, T& value) {
-    if constexpr (!std::is_arithmetic_v<T>) {
-      if constexpr (has_options<T, Names>::value) {
-        const std::string outer = path;
-        path += std::string(name) + '.';
-        each_option(value, *this);
-        path = outer;
-      }
-    } else {
-      found.push_back(path + name);
-    }
-  }
-  template <class T>
-  void positive(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T>
-  void any(const char* name, T& value) {
-    (*this)(name, value);
-  }
-  template <class T, class... Words>
-  void choice(const char* name, T&, Words...) {
+  void number(const char* name, T& now) {
+    if constexpr (!std::is_same_v<T, bool>) text_of[path + name] = option_text(now);
     found.push_back(path + name);
+  }
+  void word(const char* name, const char*) { found.push_back(path + name); }
+  template <class T>
+  void group(const char* name, T& value) {
+    const std::string outer = path;
+    path += std::string(name) + '.';
+    each_option(value, *this);
+    path = outer;
   }
 };
 template <class Policies>
-std::vector<std::string> names_of(FrameFilter<Policies>& filter) {
+Names all_options_of(FrameFilter<Policies>& filter) {
   Names names;
   each_option(filter, names);
-  return names.found;
+  return names;
+}
+template <class Policies>
+std::vector<std::string> names_of(FrameFilter<Policies>& filter) {
+  return all_options_of(filter).found;
 }
 
 TEST_F(OptionsFile, ANameThatIsGoneIsRefusedWithWhatReplacedIt) {
@@ -292,10 +314,10 @@ TEST_F(OptionsFile, OfAnOldFileEachNameThatIsGoneIsListed) {
 
 // What `write_options` left behind before options were fixed: every line of it is either read or listed.
 TEST_F(OptionsFile, ACompleteFileOfBeforeIsRefusedLineByLine) {
-  const std::vector<std::string> names = names_of(filter);
+  const Names options = all_options_of(filter);
   std::string text;
   std::vector<std::string> open;  // the groups of the line before
-  std::vector<std::string> all(names);
+  std::vector<std::string> all(options.found);
   for (const ReplacedOption& option : kReplacedOptions) all.emplace_back(option.name);
   std::sort(all.begin(), all.end());
   for (const std::string& name : all) {
@@ -307,7 +329,8 @@ TEST_F(OptionsFile, ACompleteFileOfBeforeIsRefusedLineByLine) {
     std::size_t common = 0;
     while (common < std::min(groups.size(), open.size()) && groups[common] == open[common]) ++common;
     for (; common < groups.size(); ++common) text += std::string(3 * common, ' ') + groups[common] + ":\n";
-    text += std::string(3 * groups.size(), ' ') + name.substr(begin) + ": 1\n";
+    text += std::string(3 * groups.size(), ' ') + name.substr(begin) + ": " +
+            (options.text_of.count(name) > 0 ? options.text_of.at(name) : "1") + '\n';
     open = groups;
   }
   const std::string found = error(text);
@@ -355,7 +378,7 @@ struct MyGate : TailGate {
 };
 template <class Visit>
 void each_option(MyGate& gate, Visit& visit) {
-  visit("patience_s", gate.patience_s);
+  visit("patience_s", gate.patience_s, OptionRange{0, 10});
 }
 struct MyPolicies : DefaultPolicies {
   using Gate = MyGate;
@@ -365,6 +388,9 @@ TEST_F(OptionsFile, StageOfAUserTakesPart) {
   FrameFilter<MyPolicies> mine(any_camera());
   read_options(file("gate:\n   patience_s: 3\n"), mine);
   EXPECT_EQ(mine.gate.patience_s, 3.0);
+  EXPECT_EQ(mine.options_error(), "");
+  mine.gate.patience_s = 11;
+  EXPECT_EQ(mine.options_error(), "gate.patience_s is 11, expected a number from 0 to 10");
 }
 
 }  // namespace

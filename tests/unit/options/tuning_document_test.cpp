@@ -14,7 +14,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "stillpoint/options/stage_options.hpp"
+#include "stillpoint/core/options.hpp"
+#include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
 
 namespace stillpoint {
@@ -33,23 +34,21 @@ struct Listing {
   std::string path;
 
   template <class T>
+  void operator()(const char* name, T& value, const OptionRange& range) {
+    rows[path + name] = {option_text(range), in_words(value)};
+  }
+  template <class T>
+  void seed(const char* name, T& value) {
+    rows[path + name] = {"any", in_words(value)};
+  }
+  template <class T>
   void operator()(const char* name, T& value) {
-    if constexpr (std::is_arithmetic_v<T>) {
-      rows[path + name] = {"0 or more", in_words(value)};
-    } else if constexpr (has_options<T, Listing>::value) {
+    if constexpr (has_options<T, Listing>::value) {
       const std::string outer = path;
       path += std::string(name) + '.';
       each_option(value, *this);
       path = outer;
     }
-  }
-  template <class T>
-  void positive(const char* name, T& value) {
-    rows[path + name] = {"above 0", in_words(value)};
-  }
-  template <class T>
-  void any(const char* name, T& value) {
-    rows[path + name] = {"any", in_words(value)};
   }
   template <class T, class... Words>
   void choice(const char* name, T& value, Words... words) {

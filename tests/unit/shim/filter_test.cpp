@@ -358,14 +358,18 @@ TEST(ShimFilter, WrongSettingsAreNamed) {
   EXPECT_NE(refusal_of(camera(), settings), "accepted");
   settings = {};
   settings.false_positive_rate = std::nan("");
-  EXPECT_EQ(refusal_of(camera(), settings), "stillpoint: settings: false_positive_rate is nan, expected 1e-6 to 0.5");
+  EXPECT_EQ(refusal_of(camera(), settings),
+            "stillpoint: settings: gate.false_positive_rate is nan, expected a number from 0.000001 to 0.5");
   settings = {};
   settings.fewest_features = -1;
   EXPECT_EQ(refusal_of(camera(), settings), "stillpoint: settings: fewest_features is -1.000000, expected 0 or more");
+  settings.fewest_features = 2000000;
+  EXPECT_EQ(refusal_of(camera(), settings),
+            "stillpoint: settings: keep_floor.fewest_features is 2000000, expected a whole number from 0 to 1000000");
   settings = {};
   settings.depth_noise = stillpoint_shim::DepthNoise::stereo;
   EXPECT_EQ(refusal_of(camera(), settings),
-            "stillpoint: settings: stereo_baseline_m is 0.000000, expected a length in metres");
+            "stillpoint: settings: depth_noise.baseline_m is 0, expected a number from 0.001 to 100");
 }
 
 TEST(ShimFilter, ClassesHaveTheLibrarysMobility) {
