@@ -23,7 +23,7 @@ for target in "${targets[@]}"; do
   program=build/fuzz/tests/fuzz/fuzz_$target
   found=build/fuzz/found/$target grown=build/fuzz/corpus/$target  # what a run learns stays for the next one
   mkdir -p "$found" "$grown"
-  limits=(-max_len=4096 -timeout=20 -rss_limit_mb=3000 -artifact_prefix="$found/")
+  limits=(-max_len=4096 -timeout=60 -rss_limit_mb=3000 -artifact_prefix="$found/")
   echo "--- $target: the corpus"
   # One process for all of them; where one fails, its name is the last that was printed.
   "$program" "${limits[@]}" tests/fuzz/corpus/"$target"/* > "$found/replay.log" 2>&1 ||
