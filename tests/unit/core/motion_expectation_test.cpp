@@ -90,8 +90,11 @@ TEST(MotionExpectation, TimeStampsARoundingApartGiveNoVelocity) {
   MotionExpectation expectation;
   expectation.advance(0.0, motion(false));
   expectation.advance(5e-324, motion(false));
-  for (const std::optional<Pose>& pose : {expectation.at(0.1).current_from_reference, expectation.at(0.1).predicted})
-    if (pose) EXPECT_TRUE(is_plausible_motion(*pose)) << pose->matrix();
+  for (const std::optional<Pose>& pose : {expectation.at(0.1).current_from_reference, expectation.at(0.1).predicted}) {
+    if (pose) {
+      EXPECT_TRUE(is_plausible_motion(*pose)) << pose->matrix();
+    }
+  }
   expectation.advance(0.1, motion(false));
   expectation.advance(0.2, motion(false));
   ASSERT_TRUE(expectation.at(0.3).predicted) << "what was wrong is not remembered";
