@@ -19,9 +19,11 @@ struct Motion {
   Warnings warnings;                               ///< rotation_only, consensus_inverted
   Pose current_from_reference = Pose::Identity();  ///< metres
   /// Of a small rotation (radians, first three) and translation (metres, last three) applied after the pose, in the
-  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v. As if corners were wrong independently of each
-  /// other: on recordings true errors are some three and a half times as large (`Inertia::correlated`).
+  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v.
   Matrix6d covariance = Matrix6d::Zero();
+  /// What the covariance is over that of constraints that are wrong independently of each other; 1 where nobody says.
+  /// Neighbouring corners share errors of depth, of blur, of a rolling shutter.
+  double correlation = 1;
   double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
   bool metric = true;      ///< false: nobody knows the scale; the translation is a direction of length 1, or zero
   bool standing = false;   ///< the camera did not move at all: the pose is the identity, not an estimate

@@ -20,6 +20,10 @@ struct Inertia {
   double acceleration_m_s2 = 3.0;            ///< standard deviation along each axis, of a camera held by hand; 0: none
   double angular_acceleration_rad_s2 = 3.0;  ///< the same about each axis
 
+  /// Constraints that say no more than one independent one would (`Motion::correlation`): the median of error² over
+  /// variance on recordings; 1 in synthetic scenes.
+  static constexpr double kCorrelated = 12.0;
+
   bool applies(const MotionPrior& prior) const noexcept {
     return prior.predicted.has_value() && acceleration_m_s2 > 0 && angular_acceleration_rad_s2 > 0;
   }
@@ -45,9 +49,6 @@ struct Inertia {
   }
 
  private:
-  // Constraints that say no more than one independent one would: neighbours share errors of depth, of blur, of a
-  // rolling shutter. The median of error² over variance on recordings; 1 in synthetic scenes.
-  static constexpr double kCorrelated = 12.0;
   static constexpr double kDegreesOfFreedom = 10.0;  // of Student's t: jolts are rare and then large
 
   /// Of Student's t, for what lies between the two: e² = xᵀ (found⁻¹ + velocity⁻¹)⁻¹ x, by the matrix inversion lemma.

@@ -99,7 +99,7 @@ class SupportMotion {
     Matrix6d information = chosen.information;
     if (!motion.standing && inertia.applies(prior))
       motion.current_from_reference = inertia.fuse(motion.current_from_reference, information, prior);
-    motion.covariance = covariance(information);
+    set_covariance(information, motion);
     return motion;
   }
 
@@ -128,7 +128,7 @@ class SupportMotion {
     if (inertia.applies(prior)) refined = inertia.fuse(refined, information, prior);
     const Pose back = motion.current_from_reference * refined.inverse();  // the old current camera from the new one
     motion.current_from_reference = refined;
-    motion.covariance = covariance(information);
+    set_covariance(information, motion);
     for (OlderFrame& frame : frames)
       frame.reference_from_current = orthonormalized(frame.reference_from_current * back);
   }
@@ -276,9 +276,10 @@ class SupportMotion {
     return kabsch(span<const Vector3d>(current.data(), 3), span<const Vector3d>(reference.data(), 3));
   }
 
-  static Matrix6d covariance(const Matrix6d& information) {
-    constexpr double kHold = 1e-6;  // what nothing is known of gets a kilometre
-    return Cholesky<6>(information + kHold * Matrix6d::Identity()).inverse();
+  static void set_covariance(const Matrix6d& information, Motion& motion) {
+    constexpr double kHold = 1e-6;  // what nothing is known of gets kilometres
+    motion.correlation = Inertia::kCorrelated;
+    motion.covariance = Inertia::kCorrelated * Cholesky<6>(information + kHold * Matrix6d::Identity()).inverse();
   }
 };
 

@@ -73,11 +73,12 @@ class SightingScore {
   static constexpr double kDissimilarityScale = 0.12;  // 1 − correlation: static patches exceed it with probability 1/e
   static constexpr double kExpectedDepth = 1.0;        // what a static point scores by depth on average, nats
 
-  /// What the pose's own uncertainty moves a pixel, the same in all directions: f² (σ_ω² + σ_v² / z²).
+  /// What the pose's own uncertainty moves a pixel, the same in all directions: f² (σ_ω² + σ_v² / z²). An error that
+  /// neighbours share moves the scored feature along with them: it is no disagreement.
   static double pose_variance_sq_px(const Motion& motion, double depth_m, double focal_px) noexcept {
     const double rotation = motion.covariance.topLeftCorner<3, 3>().trace() / 3.0;
     const double translation = motion.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
-    return focal_px * focal_px * (rotation + translation / (depth_m * depth_m));
+    return focal_px * focal_px * (rotation + translation / (depth_m * depth_m)) / motion.correlation;
   }
 
   /// A patch that looks just alike is located better than one that does not.

@@ -77,7 +77,7 @@ TEST(SupportMotion, NoiseIsAveragedAndTheCovarianceTellsOfIt) {
     ASSERT_EQ(motion.status, Status::ok);
     EXPECT_LT(test::rotation_error(motion.current_from_reference, kMotion), 1e-3);
     EXPECT_LT(test::translation_error(motion.current_from_reference, kMotion), 3e-3);
-    const Vector6d sigma = motion.covariance.diagonal().cwiseSqrt();
+    const Vector6d sigma = (motion.covariance / motion.correlation).diagonal().cwiseSqrt();
     EXPECT_GT(sigma.minCoeff(), 1e-6);
     EXPECT_LT(sigma.maxCoeff(), 1e-2);
   }
