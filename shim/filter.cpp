@@ -116,10 +116,6 @@ class Engine {
   }
 
   /// 16-bit depth, and nobody has said in which units?
-  bool lacks_depth_factor(const Image& depth) const noexcept {
-    return depth.data != nullptr && depth.type == CV_16UC1 && depth_factor_ == 0;
-  }
-
   void copy_weights(float* weights, std::size_t size) const {
     std::vector<float> of_feature(size, 1.0f);
     if (result_ != nullptr && result_->size() == size) stillpoint::weights(*result_, of_feature);
@@ -138,8 +134,6 @@ class Engine {
   }
 
   /// The last frame has no answer: weights and mask keep all of it.
-  void forget_result() noexcept { result_ = nullptr; }
-
   /// All is kept.
   void fill(const Pixels& pixels) const noexcept {
     for (int v = 0; v < filter_.camera.height(); ++v)
@@ -210,23 +204,19 @@ bool change_settings(Engine& engine, const Settings& settings, char* message, st
 }
 
 // What can be thrown from here on is std::bad_alloc. A frame then keeps everything and the filter begins anew.
-const char* filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s,
-                         const Points& points, unsigned char* keep, bool& judged) noexcept try {
-  if (engine.lacks_depth_factor(depth)) {
-    std::fill_n(keep, points.count, static_cast<unsigned char>(1));
-    judged = false;
-    engine.forget_result();
-    return "no_depth_factor: 16-bit depth needs Settings::depth_factor, 1000 for millimetres, 5000 for TUM's files";
-  }
+Answer filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s, const Points& points,
+                    unsigned char* keep) noexcept try {
   const stillpoint::FrameResult& result = engine.filter_frame(image, depth, timestamp_s, points);
   std::copy(result.keep().begin(), result.keep().end(), keep);
-  judged = stillpoint::judged(result.status());
-  return stillpoint::to_string(result.status());
+  const bool lacks_unit = result.status() == stillpoint::Status::depth_unit_missing;
+  return {stillpoint::to_string(result.status()),
+          lacks_unit ? "16-bit depth needs Settings::depth_factor: 1000 for millimetres, 5000 for TUM's files."
+                     : result.hint(),
+          stillpoint::judged(result.status()), result.warnings().has(stillpoint::Warning::keep_floor)};
 } catch (...) {
   std::fill_n(keep, points.count, static_cast<unsigned char>(1));
-  judged = false;
   reset(engine);
-  return "failed";
+  return {"failed", "", false, false};
 }
 
 void copy_weights(const Engine& engine, float* weights, std::size_t size) noexcept try {

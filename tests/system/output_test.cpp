@@ -66,10 +66,11 @@ void expect_counts_agree(const fs::path& folder) {
   }
   const auto frames = read_csv(folder / "frames.csv");
   ASSERT_GT(frames.size(), 1u);
-  EXPECT_EQ(frames[0],
-            split("timestamp,status,reference_timestamp,tx,ty,tz,qx,qy,qz,qw,features,kept,keep_floor_kept", ','));
+  EXPECT_EQ(
+      frames[0],
+      split("timestamp,status,reference_timestamp,tx,ty,tz,qx,qy,qz,qw,features,kept,keep_floor_kept,warnings", ','));
   for (std::size_t i = 1; i < frames.size(); ++i) {
-    ASSERT_EQ(frames[i].size(), 13u) << "row " << i;
+    ASSERT_EQ(frames[i].size(), 14u) << "row " << i;
     EXPECT_EQ(std::stoul(frames[i][10]), counted[frames[i][0]].first) << "row " << i;
     EXPECT_EQ(std::stoul(frames[i][11]), counted[frames[i][0]].second) << "row " << i;
   }
@@ -109,6 +110,7 @@ void expect_report(const Json& report, int frame_count) {
                                       "features_per_frame",
                                       "kept_share",
                                       "statuses",
+                                      "warnings",
                                       "timing_ms",
                                       "ate_rmse_m",
                                       "rpe",

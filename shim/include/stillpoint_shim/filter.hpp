@@ -124,8 +124,12 @@ class Filter {
 
   const Result& filter(const cv::Mat& image, const cv::Mat& depth, double timestamp_s, const detail::Points& points) {
     result_.keep.assign(points.count, 1);
-    result_.status = detail::filter_frame(*engine_, view(image), view(depth), timestamp_s, points, result_.keep.data(),
-                                          result_.judged);
+    const detail::Answer answer =
+        detail::filter_frame(*engine_, view(image), view(depth), timestamp_s, points, result_.keep.data());
+    result_.status = answer.status;
+    result_.hint = answer.hint;
+    result_.judged = answer.judged;
+    result_.keep_floor = answer.keep_floor;
     result_.kept_count = 0;
     for (const unsigned char flag : result_.keep) result_.kept_count += flag;
     return result_;

@@ -76,8 +76,9 @@ struct Result {
   std::vector<unsigned char> keep;     ///< one byte a key point, in their order: 1 keep, 0 drop
   std::size_t kept_count = 0;          ///< how many are 1
   bool judged = false;                 ///< false: the frame could not be judged, everything is kept
-  const char* status = "first_frame";  ///< why: `to_string` of core/status.hpp, "failed", or
-                                       ///< "no_depth_factor: ..."; never freed
+  const char* status = "first_frame";  ///< why: `to_string` of core/status.hpp, or "failed"; never freed
+  bool keep_floor = false;             ///< so much was dynamic that the floor kept some of it
+  const char* hint = "";               ///< what is probably used wrongly, one sentence; empty else; never freed
 };
 
 namespace detail {
@@ -102,6 +103,12 @@ struct Pixels {
   std::size_t stride_bytes;
 };
 
+/// What is said of a frame, as in `Result`.
+struct Answer {
+  const char *status, *hint;
+  bool judged, keep_floor;
+};
+
 /// The filter behind the border; its type is complete in the library alone.
 class Engine;
 
@@ -114,9 +121,9 @@ STILLPOINT_SHIM_API void destroy(Engine* engine) noexcept;
 /// False with a message where the settings are wrong; then none has changed.
 STILLPOINT_SHIM_API bool change_settings(Engine& engine, const Settings& settings, char* message,
                                          std::size_t message_size) noexcept;
-/// Writes `points.count` bytes; returns the status.
-STILLPOINT_SHIM_API const char* filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s,
-                                             const Points& points, unsigned char* keep, bool& judged) noexcept;
+/// Writes `points.count` bytes.
+STILLPOINT_SHIM_API Answer filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s,
+                                        const Points& points, unsigned char* keep) noexcept;
 /// Of the last frame; `size` is its number of key points.
 STILLPOINT_SHIM_API void copy_weights(const Engine& engine, float* weights, std::size_t size) noexcept;
 /// Of the camera's size: 255 keeps, 0 drops.

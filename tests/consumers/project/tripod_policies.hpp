@@ -16,7 +16,7 @@
 #include <stillpoint/version.hpp>
 
 struct Tripod {
-  stillpoint::Motion estimate(const stillpoint::Matches&, const stillpoint::Regions&, const stillpoint::Camera&,
+  stillpoint::Motion estimate(const stillpoint::Observations&, const stillpoint::Camera&,
                               const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
     stillpoint::Motion motion;
     motion.status = stillpoint::Status::ok;

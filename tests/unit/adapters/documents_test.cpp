@@ -29,8 +29,9 @@ namespace {
 
 // clang-format off
 /// Behind the extractor, before the tracker. The arrays are the host's, one entry a key point.
-void filter_features(stillpoint::FrameFilter<>& filter, const cv::Mat& gray, const cv::Mat& depth, double time_s,
+void filter_features(stillpoint::FrameFilter<>& filter, const cv::Mat& gray, const cv::Mat& depth_mm, double time_s,
                      std::vector<cv::KeyPoint>& keypoints, cv::Mat& descriptors) {
+  const auto depth = stillpoint::DepthView::millimetres(depth_mm);   // 16 bit; float images are metres
   const auto& result = filter.filter_frame({gray, depth, time_s}, keypoints);
   stillpoint::compact(result.keep(), keypoints, descriptors);
 }
@@ -75,8 +76,8 @@ void erase_moving(const stillpoint::FrameResult& result, const std::vector<int>&
 }
 
 /// Follows points into the next image and keeps those that were found and stand still.
-void follow(stillpoint::FrameFilter<>& filter, const cv::Mat& last, const cv::Mat& gray, const cv::Mat& depth,
-            double time_s, std::vector<cv::Point2f>& previous, std::vector<cv::Point2f>& current) {
+void follow(stillpoint::FrameFilter<>& filter, const cv::Mat& last, const cv::Mat& gray,
+            const stillpoint::DepthView& depth, double time_s, std::vector<cv::Point2f>& previous, std::vector<cv::Point2f>& current) {
   std::vector<unsigned char> status;
   std::vector<float> error;
   cv::calcOpticalFlowPyrLK(last, gray, previous, current, status, error);
@@ -147,7 +148,8 @@ TEST(AdoptingDocument, RtabmapAndVinsTakeTheResult) {
   FirstFrame first;
   std::vector<cv::KeyPoint> keypoints;
   look_alikes::fill(keypoints, 3);
-  const auto& result = first.filter.filter_frame({first.gray, first.depth, 1.0}, keypoints);
+  const auto& result =
+      first.filter.filter_frame({first.gray, stillpoint::DepthView::millimetres(first.depth), 1.0}, keypoints);
   SensorData data;
   set_filtered_features(result, keypoints, {}, cv::Mat(), data);
   EXPECT_EQ(data.keypoints.size(), 3u);

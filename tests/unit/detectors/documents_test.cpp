@@ -35,7 +35,7 @@ stillpoint::OpenCvDetector detector(model, options);            // .onnx, .weigh
 
 stillpoint::FrameFilter<> filter(camera);
 detector.detect(bgr, filter.prior.detections);
-const auto& result = filter.filter_frame({bgr, depth, time}, keypoints);
+const auto& result = filter.filter_frame({bgr, stillpoint::DepthView::millimetres(depth), time}, keypoints);
   // clang-format on
   EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
   ASSERT_EQ(filter.prior.detections.size(), 1u);

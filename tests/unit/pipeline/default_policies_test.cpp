@@ -111,9 +111,9 @@ TEST_F(DefaultFilter, ACameraOfAnotherSizeBeginsAnew) {
   filter_.camera = Camera(100, 100, 100, 45, 200, 90);
   ImageBuffer mask;
   filter_.predicted_keep_mask(frame.time_s, 3, mask);
-  const FrameView other(gray, DepthView(depth), frame.time_s);
+  const FrameView other(gray, DepthView::tum(depth), frame.time_s);
   expect_open(filter_.filter_frame(other, frame.keypoints), count(3), Status::first_frame);
-  const FrameView next(gray, DepthView(depth), frame.time_s + 0.1);
+  const FrameView next(gray, DepthView::tum(depth), frame.time_s + 0.1);
   expect_sound(filter_.filter_frame(next, frame.keypoints), count(3));
   filter_.camera = mock::Clip::camera();
   expect_open(run(5), count(5), Status::first_frame);

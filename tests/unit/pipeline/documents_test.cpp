@@ -85,7 +85,7 @@ TEST(Documents, TheSnippetOfTheReadmeRuns) {
   const double time = 1.0;
   // clang-format off
 stillpoint::FrameFilter<> filter(camera);                             // DefaultPolicies
-const auto& result = filter.filter_frame({gray, depth, time}, keypoints);
+const auto& result = filter.filter_frame({gray, stillpoint::DepthView::millimetres(depth), time}, keypoints);
 stillpoint::compact(result.keep(), keypoints, descriptors, depths);   // parallel arrays stay aligned
   // clang-format on
   EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
@@ -96,7 +96,8 @@ TEST(Documents, TheTripodsPoliciesRun) {
   stillpoint::FrameFilter<TripodPolicies> filter(kCamera);
   const Wall wall;
   for (int i = 0; i < 5; ++i) {
-    const auto& result = filter.filter_frame({wall.gray, wall.depth, 1.0 + 0.03 * i}, wall.keypoints);
+    const auto& result = filter.filter_frame(
+        {wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.0 + 0.03 * i}, wall.keypoints);
     if (i == 0) continue;
     EXPECT_EQ(result.status(), stillpoint::Status::ok);
     EXPECT_EQ(result.kept_count(), wall.keypoints.size()) << "nothing moves";
@@ -106,8 +107,9 @@ TEST(Documents, TheTripodsPoliciesRun) {
 TEST(Documents, TheReplacedStageOfTheReadmeRuns) {
   stillpoint::FrameFilter<MyPolicies> filter(kCamera);
   const Wall wall;
-  filter.filter_frame({wall.gray, wall.depth, 1.0}, wall.keypoints);
-  const auto& result = filter.filter_frame({wall.gray, wall.depth, 1.03}, wall.keypoints);
+  filter.filter_frame({wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.0}, wall.keypoints);
+  const auto& result =
+      filter.filter_frame({wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.03}, wall.keypoints);
   EXPECT_TRUE(stillpoint::judged(result.status())) << to_string(result.status());
 }
 
@@ -134,7 +136,7 @@ stillpoint::DetectorAnswer answer;
   const double time = 1.0 + 0.03 * i;
 detector.offer(gray, time);   // copies the image; a newer one takes its place if it has to wait
 if (detector.take(answer)) filter.prior.detected(answer.timestamp_s, answer.detections);
-const auto& result = filter.filter_frame({gray, depth, time}, keypoints);
+const auto& result = filter.filter_frame({gray, stillpoint::DepthView::millimetres(depth), time}, keypoints);
     // clang-format on
     EXPECT_EQ(result.size(), keypoints.size());
     detector.wait();
