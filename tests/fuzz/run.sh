@@ -4,7 +4,7 @@
 
 # run.sh MINUTES [TARGET...]: replays the corpus of each target (lists, yaml, decoders, filter; all of them unless told)
 # and then fuzzes it for MINUTES, which may be a fraction: so long for each of them, one after the other. 0 replays only.
-# Builds them first, in build/fuzz (-DSTILLPOINT_BUILD_FUZZERS=ON, preset `fuzz`). What is found lies in
+# SEED=N in the environment fuzzes in the same order each time. Builds them first, in build/fuzz (-DSTILLPOINT_BUILD_FUZZERS=ON, preset `fuzz`). What is found lies in
 # build/fuzz/found/TARGET: mend it, and put the input into tests/fuzz/corpus/TARGET. Exit status 1 where something is.
 set -uo pipefail
 minutes=${1:?"run.sh MINUTES [TARGET...]"}
@@ -30,7 +30,7 @@ for target in "${targets[@]}"; do
     { tail -n 40 "$found/replay.log"; failed+=("$target"); continue; }
   ((seconds > 0)) || continue
   echo "--- $target: $seconds s of fuzzing"
-  "$program" "${limits[@]}" -max_total_time="$seconds" -print_final_stats=1 "$grown" tests/fuzz/corpus/"$target" \
+  "$program" "${limits[@]}" -seed="${SEED:-0}" -max_total_time="$seconds" -print_final_stats=1 "$grown" tests/fuzz/corpus/"$target" \
     > "$found/fuzz.log" 2>&1 || { tail -n 60 "$found/fuzz.log"; failed+=("$target"); continue; }
   grep -E '^stat::number_of_executed_units' "$found/fuzz.log"
 done
