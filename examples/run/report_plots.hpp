@@ -143,25 +143,32 @@ inline Plot kept_plot(const RunRecord& run, const Figures& figures) {
                                  ? 100.0 * static_cast<double>(frame.kept) / static_cast<double>(frame.features)
                                  : detail::kGap);
   plot.lines.push_back(std::move(line));
-  plot.description = "Marks below the line: frames whose status is not ok.";
+  plot.description = "Marks below the line: frames whose status is not ok, and frames with a warning.";
 
-  std::vector<std::string> noted;
-  for (const auto& [status, frames] : figures.statuses) {
-    if (status == "ok") continue;
-    const std::string css_class = "mark" + std::to_string(std::min<std::size_t>(noted.size(), 3));
-    noted.push_back(status);
-    plot.mark_names.emplace_back(css_class, status + ": " + count_words(frames, "frame"));
-    const FrameSummary* before = nullptr;
+  std::size_t kinds = 0;
+  const auto mark = [&](const std::string& name, std::size_t frames, const auto& has_it) {
+    const std::string css_class = "mark" + std::to_string(std::min<std::size_t>(kinds++, 3));
+    plot.mark_names.emplace_back(css_class, name + ": " + count_words(frames, "frame"));
+    bool had_it = false;
     for (const FrameSummary& frame : run.frames) {
-      const bool has_it = to_string(frame.status) == status;
       const double time_s = detail::seconds_of(run, frame.timestamp_s);
-      if (has_it && before != nullptr)
+      const bool has = has_it(frame);
+      if (has && had_it)
         plot.marks.back().x_end = time_s;  // frames in a row are one mark
-      else if (has_it)
+      else if (has)
         plot.marks.push_back({css_class, time_s, time_s});
-      before = has_it ? &frame : nullptr;
+      had_it = has;
     }
-  }
+  };
+  for (const auto& [status, frames] : figures.statuses)
+    if (status != "ok")
+      mark(status, frames, [name = status](const FrameSummary& frame) { return to_string(frame.status) == name; });
+  for (const auto& [warning, frames] : figures.warnings)
+    mark(warning, frames, [name = warning](const FrameSummary& frame) {
+      bool has = false;
+      frame.warnings.for_each([&](stillpoint::Warning one) { has = has || to_string(one) == name; });
+      return has;
+    });
   return plot;
 }
 

@@ -4,8 +4,9 @@
 
 # run.sh MINUTES [TARGET...]: replays the corpus of each target (lists, yaml, decoders, filter; all of them unless told)
 # and then fuzzes it for MINUTES, which may be a fraction: so long for each of them, one after the other. 0 replays only.
-# SEED=N in the environment fuzzes in the same order each time. Builds them first, in build/fuzz (-DSTILLPOINT_BUILD_FUZZERS=ON, preset `fuzz`). What is found lies in
-# build/fuzz/found/TARGET: mend it, and put the input into tests/fuzz/corpus/TARGET. Exit status 1 where something is.
+# SEED=N in the environment fuzzes in the same order each time. Builds them first, in build/fuzz
+# (-DSTILLPOINT_BUILD_FUZZERS=ON, preset `fuzz`). What is found lies in build/fuzz/found/TARGET: mend it, and put the
+# input into tests/fuzz/corpus/TARGET. Exit status 1 where something is.
 set -uo pipefail
 minutes=${1:?"run.sh MINUTES [TARGET...]"}
 shift
