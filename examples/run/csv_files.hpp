@@ -91,6 +91,7 @@ class FramesFile {
     row += ',' + std::to_string(frame.features) + ',' + std::to_string(frame.kept) + ',' +
            std::to_string(frame.keep_floor_kept) + ',';
     bool is_first = true;
+    if (frame.warnings.empty()) row += "none";
     frame.warnings.for_each([&](stillpoint::Warning warning) {
       row += is_first ? "" : "|";
       row += to_string(warning);
