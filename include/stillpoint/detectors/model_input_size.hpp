@@ -69,7 +69,7 @@ class ProtobufFields {
  private:
   bool varint(std::uint64_t& result) {
     result = 0;
-    for (int shift = 0; shift < 64; shift += 7) {
+    for (int shift = 0; shift < 64 && at_ < end_; shift += 7) {
       const int byte = file_.get();
       if (byte < 0) return false;
       ++at_;
@@ -79,8 +79,9 @@ class ProtobufFields {
     return false;
   }
   bool advance(std::int64_t bytes) {
+    if (bytes > end_ - at_) return false;
     next_ = at_ + bytes;
-    return next_ <= end_;
+    return true;
   }
 
   std::ifstream& file_;

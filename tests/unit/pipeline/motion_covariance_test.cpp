@@ -22,7 +22,7 @@
 namespace stillpoint::motion_covariance_test {
 namespace {
 
-std::optional<Pose> reference_pose(const TumSequence& sequence, double timestamp_s) {
+[[maybe_unused]] std::optional<Pose> reference_pose(const TumSequence& sequence, double timestamp_s) {
   const AssociatedTrajectories pair = associate(*sequence.ground_truth(), {{timestamp_s, Pose::Identity()}});
   return pair.reference.empty() ? std::nullopt : std::optional(pair.reference[0].world_from_camera);
 }
