@@ -4,6 +4,7 @@
 
 // FrameFilter: the whole pipeline. Which of a frame's features stand still?
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -86,8 +87,8 @@ class FrameFilter : private PolicyContract<Policies> {
   /// The host's own pose of the frame that was filtered last, after its tracking. Those of two frames in a row predict
   /// the next motion. A pose that is not rigid is none, nor is a motion of more than 100 m (`is_plausible_motion`).
   void feedback(const Pose& world_from_camera) {
-    expectation_.feedback(world_from_camera);
-    use_check_.compare(world_from_camera, result_.motion_);
+    const std::optional<Pose> host_motion = expectation_.feedback(world_from_camera);
+    if (host_motion) use_check_.compare(*host_motion, result_.motion_);
   }
 
   /// What an IMU or wheels say of the coming motion; holds for the next frame. One that is not rigid, or

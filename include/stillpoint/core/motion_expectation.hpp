@@ -35,12 +35,14 @@ inline bool is_plausible_motion(const Pose& current_from_reference) {
 class MotionExpectation {
  public:
   /// The host's own pose of the frame that came last. Those of two frames in a row give the velocity.
-  void feedback(const Pose& world_from_camera) {
-    if (!is_rigid(world_from_camera)) return;
+  /// @return  what the host says of the motion to that frame, current_from_reference, plausible or not
+  std::optional<Pose> feedback(const Pose& world_from_camera) {
+    if (!is_rigid(world_from_camera)) return std::nullopt;
     world_from_last_ = world_from_camera;
-    if (!world_from_second_last_) return;
+    if (!world_from_second_last_) return std::nullopt;
     const Pose moved = inverted(world_from_camera) * *world_from_second_last_;
     if (is_plausible_motion(moved)) last_motion_ = orthonormalized(moved);
+    return moved;
   }
 
   /// What an IMU or wheels say of the motion to the coming frame; holds for that one.

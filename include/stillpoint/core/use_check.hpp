@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 
 #include "stillpoint/core/depth_orientation.hpp"
 #include "stillpoint/core/frame.hpp"
@@ -28,8 +27,6 @@ class UseCheck {
   /// @param depth_m  theirs, 0 for none; of a frame that was judged
   void observe(Status status, const FrameView& frame, span<const Vector2f> pixels, span<const double> depth_m,
                const Motion& motion) {
-    last_host_pose_ = host_pose_;
-    host_pose_.reset();
     if (status == Status::first_frame || FrameCheck::rejects(status)) return;
     times_far_apart_.count(status == Status::time_gap || status == Status::out_of_order);
     if (status == Status::time_gap || status == Status::out_of_order) return;
@@ -45,12 +42,12 @@ class UseCheck {
     motion_too_fast_.count(is_metric && motion.current_from_reference.translation().norm() > kFast_m);
   }
 
-  /// The host says where the camera was in the frame that was observed last.
-  /// @param motion  of the filter, to that frame
-  void compare(const Pose& world_from_camera, const Motion& motion) {
-    host_pose_ = world_from_camera;
-    if (!last_host_pose_ || !motion.usable() || !motion.metric) return;
-    const double host_m = (inverted(world_from_camera) * *last_host_pose_).translation().norm();
+  /// The host says how the camera moved to the frame that was observed last.
+  /// @param host_motion  current_from_reference
+  /// @param motion       of the filter, to that frame
+  void compare(const Pose& host_motion, const Motion& motion) {
+    if (!motion.usable() || !motion.metric) return;
+    const double host_m = host_motion.translation().norm();
     const double filter_m = motion.current_from_reference.translation().norm();
     if (!(std::max(host_m, filter_m) > kLeastStep_m)) return;
     scale_differs_.count(host_m > kOtherScale * filter_m || filter_m > kOtherScale * host_m);
@@ -157,7 +154,6 @@ class UseCheck {
       times_far_apart_{kMany}, nothing_fits_{kMany};
   Doubt depth_turned_over_{kMany / kLookEvery};
   unsigned frames_ = 0;
-  std::optional<Pose> host_pose_, last_host_pose_;  // of the last frame and the one before
 };
 
 }  // namespace stillpoint
