@@ -69,8 +69,8 @@ struct StageTime {
 
 struct Figures {
   std::size_t features = 0, kept = 0;
-  std::vector<std::pair<std::string, std::size_t>> statuses;  ///< those that occurred, in the order of the enum
-  std::vector<std::pair<std::string, std::size_t>> warnings;  ///< likewise
+  std::vector<std::pair<stillpoint::Status, std::size_t>> statuses;   ///< those that occurred, in the order of the enum
+  std::vector<std::pair<stillpoint::Warning, std::size_t>> warnings;  ///< likewise
   std::vector<StageTime> times;
   std::optional<Spread> detection_ms;  ///< of a network
   std::optional<double> features_per_frame, kept_share, improvement_percent;
@@ -142,13 +142,13 @@ inline Figures evaluate(const RunRecord& run) {
     const auto status = static_cast<stillpoint::Status>(s);
     const auto count = std::count_if(run.frames.begin(), run.frames.end(),
                                      [status](const FrameSummary& frame) { return frame.status == status; });
-    if (count > 0) figures.statuses.emplace_back(to_string(status), static_cast<std::size_t>(count));
+    if (count > 0) figures.statuses.emplace_back(status, static_cast<std::size_t>(count));
   }
   for (std::size_t w = 0; w < stillpoint::kWarningCount; ++w) {
     const auto warning = static_cast<stillpoint::Warning>(w);
     const auto count = std::count_if(run.frames.begin(), run.frames.end(),
                                      [warning](const FrameSummary& frame) { return frame.warnings.has(warning); });
-    if (count > 0) figures.warnings.emplace_back(to_string(warning), static_cast<std::size_t>(count));
+    if (count > 0) figures.warnings.emplace_back(warning, static_cast<std::size_t>(count));
   }
   for (const FrameSummary& frame : run.frames) {
     figures.features += frame.features;

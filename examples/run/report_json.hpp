@@ -75,9 +75,9 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
   nlohmann::ordered_json arguments = nlohmann::ordered_json::object();
   for (const auto& [name, value] : settings(options)) arguments[name] = value;
   nlohmann::ordered_json statuses = nlohmann::ordered_json::object();
-  for (const auto& [status, frames] : figures.statuses) statuses[status] = frames;
+  for (const auto& [status, frames] : figures.statuses) statuses[to_string(status)] = frames;
   nlohmann::ordered_json warnings = nlohmann::ordered_json::object();
-  for (const auto& [warning, frames] : figures.warnings) warnings[warning] = frames;
+  for (const auto& [warning, frames] : figures.warnings) warnings[to_string(warning)] = frames;
   nlohmann::ordered_json times = nlohmann::ordered_json::object();
   for (const StageTime& stage : figures.times) {
     const auto value = [&stage](double Spread::*member) {

@@ -161,14 +161,11 @@ inline Plot kept_plot(const RunRecord& run, const Figures& figures) {
     }
   };
   for (const auto& [status, frames] : figures.statuses)
-    if (status != "ok")
-      mark(status, frames, [name = status](const FrameSummary& frame) { return to_string(frame.status) == name; });
+    if (status != stillpoint::Status::ok)
+      mark(to_string(status), frames, [found = status](const FrameSummary& frame) { return frame.status == found; });
   for (const auto& [warning, frames] : figures.warnings)
-    mark(warning, frames, [name = warning](const FrameSummary& frame) {
-      bool has = false;
-      frame.warnings.for_each([&](stillpoint::Warning one) { has = has || to_string(one) == name; });
-      return has;
-    });
+    mark(to_string(warning), frames,
+         [found = warning](const FrameSummary& frame) { return frame.warnings.has(found); });
   return plot;
 }
 

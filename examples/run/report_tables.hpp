@@ -123,8 +123,9 @@ inline std::string detector_table(const Options& options, const DetectorRecord& 
 
 inline std::string status_table(const Figures& figures) {
   Table table("Status of the frames", {"status", "frames"});
-  for (const auto& [status, frames] : figures.statuses) table.row(status, {std::to_string(frames)});
-  for (const auto& [warning, frames] : figures.warnings) table.row("warning: " + warning, {std::to_string(frames)});
+  for (const auto& [status, frames] : figures.statuses) table.row(to_string(status), {std::to_string(frames)});
+  for (const auto& [warning, frames] : figures.warnings)
+    table.row(std::string("warning: ") + to_string(warning), {std::to_string(frames)});
   return table.html();
 }
 

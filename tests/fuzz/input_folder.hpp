@@ -4,11 +4,16 @@
 
 // A folder for the files that a reader is to read, removed when the fuzzer ends.
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <system_error>
+
+#include "bytes.hpp"
+#include "stillpoint/core/error.hpp"
 
 namespace fuzz {
 
@@ -36,5 +41,16 @@ class InputFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// Lets the reader that the first byte chooses read the others as text. A file that it refuses is no finding.
+template <class Read>
+void read_chosen(const std::uint8_t* data, std::size_t size, const Read& read) {
+  Bytes bytes(data, size);
+  const int reader = bytes.byte();
+  try {
+    read(reader, bytes.rest());
+  } catch (const stillpoint::Error&) {
+  }
+}
 
 }  // namespace fuzz

@@ -39,11 +39,6 @@ void read(int reader, const std::string& text) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  fuzz::Bytes bytes(data, size);
-  const int reader = bytes.byte();
-  try {
-    read(reader, bytes.rest());
-  } catch (const stillpoint::Error&) {
-  }
+  fuzz::read_chosen(data, size, read);
   return 0;
 }

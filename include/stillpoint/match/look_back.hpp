@@ -167,13 +167,11 @@ class LookBack {
                          inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
       dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : kUnlike;
+      return dissimilarity < most;
     };
     const span<OlderFrame> frames = sightings.frames();
-    look_in_older_frames(i, frames, i >= matches.host_count, [&](OlderFrame& older) {
-      look_at(older);
-      return dissimilarity < most;
-    });
-    dissimilarity = 0;
+    look_in_older_frames(i, frames, i >= matches.host_count, look_at);
+    dissimilarity = 0;  // with what was not looked at
     for (const OlderFrame& older : frames) {
       const Sighting& sighting = older.of_feature[i];
       dissimilarity += std::isfinite(sighting.dissimilarity) ? sighting.dissimilarity : kUnlike;

@@ -180,8 +180,8 @@ class ProvidedMatches {
       Sighting& sighting = frame.of_feature[i];
       sighting = place.sighting;
       if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
-      if (!place.in_view || sighting.state == SightingState::occluded) return;
-      if (is_beside_[i] != 0 || frame.age > tracks_.length(i)) return;
+      if (!place.in_view || sighting.state == SightingState::occluded) return true;
+      if (is_beside_[i] != 0 || frame.age > tracks_.length(i)) return true;
       sighting.state = SightingState::seen;
       sighting.dissimilarity = kDissimilarity;
       sighting.found = tracks_.pixel(i, frame.age);
@@ -189,11 +189,9 @@ class ProvidedMatches {
       sum_px += sighting.offset_px;
       if (sighting.offset_px > options.objection_px && !(observations.remembered.log_odds[i] > options.known_log_odds))
         examine(patch, current, past, place, camera, sighting);
-    };
-    look_in_older_frames(i, sightings.frames(), false, [&](OlderFrame& frame) {
-      look_at(frame);
       return true;
-    });
+    };
+    look_in_older_frames(i, sightings.frames(), false, look_at);
     return sum_px;
   }
 
