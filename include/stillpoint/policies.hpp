@@ -10,25 +10,25 @@
 #include "stillpoint/cluster/region_clusters.hpp"
 #include "stillpoint/cluster/surface_clusters.hpp"
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/gate/mean_gate.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"
 #include "stillpoint/match/patch_matcher.hpp"
 #include "stillpoint/memory/evidence_memory.hpp"
 #include "stillpoint/memory/no_memory.hpp"
-#include "stillpoint/motion/epipolar_motion.hpp"
-#include "stillpoint/motion/monocular_motion.hpp"
-#include "stillpoint/motion/rigid_motion.hpp"
-#include "stillpoint/motion/support_motion.hpp"
+#include "stillpoint/motion/epipolar/epipolar_motion.hpp"
+#include "stillpoint/motion/epipolar/monocular_motion.hpp"
+#include "stillpoint/motion/rigid/rigid_motion.hpp"
+#include "stillpoint/motion/rigid/support_motion.hpp"
 #include "stillpoint/prior/box_prior.hpp"
 #include "stillpoint/prior/foreground_prior.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/score/offset_score.hpp"
+#include "stillpoint/score/reprojection_score.hpp"
 #include "stillpoint/score/sampson_score.hpp"
-#include "stillpoint/score/sighting_score.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
 #include "stillpoint/verdict/no_keep_floor.hpp"
 
@@ -64,7 +64,7 @@ struct DefaultPolicies {
   using Prior = PropagatedPrior;
   using Matcher = PatchMatcher;
   using EgoMotion = SupportMotion;
-  using Scorer = SightingScore;
+  using Scorer = ReprojectionScore;
   using Gate = TailGate;
   using Classifier = SurfaceClusters;
   using Memory = EvidenceMemory;

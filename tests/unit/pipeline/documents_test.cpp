@@ -12,14 +12,14 @@
 
 // clang-format off
 #include <stillpoint/stillpoint.hpp>
-#include <stillpoint/prior/async_detector.hpp>
+#include <stillpoint/detectors/async_detector.hpp>
 #include <stillpoint/stereo/rectification.hpp>
 #include <stillpoint/stereo/stereo_depth.hpp>
 // clang-format on
 
 namespace {
 
-struct StandingCamera {
+struct StationaryCamera {
   template <class Camera>
   stillpoint::Motion estimate(const stillpoint::Observations& observations, const Camera&,
                               const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
@@ -31,7 +31,7 @@ struct StandingCamera {
 };
 
 struct TripodPolicies : stillpoint::DefaultPolicies {
-  using EgoMotion = StandingCamera;
+  using EgoMotion = StationaryCamera;
 };
 
 // clang-format off
@@ -130,7 +130,7 @@ TEST(Documents, TheDetectorsLoopRuns) {
   // clang-format off
 filter.prior.detections = detections;   // taken with the next frame; write nothing where there is no new answer
 filter.prior.detected(timestamp_s, detections);
-stillpoint::AsyncDetector<MyDetector> detector(MyDetector{});   // stillpoint/prior/async_detector.hpp
+stillpoint::AsyncDetector<MyDetector> detector(MyDetector{});   // stillpoint/detectors/async_detector.hpp
 stillpoint::DetectorAnswer answer;
   for (int i = 0; i < 3; ++i) {
   const double time = 1.0 + 0.03 * i;
@@ -141,7 +141,7 @@ const auto& result = filter.filter_frame({gray, stillpoint::DepthView::millimetr
     EXPECT_EQ(result.size(), keypoints.size());
     detector.wait();
   }
-  EXPECT_EQ(filter.prior.things().size(), 1u) << "one thing, seen in every frame";
+  EXPECT_EQ(filter.prior.objects().size(), 1u) << "one thing, seen in every frame";
 }
 
 }  // namespace
