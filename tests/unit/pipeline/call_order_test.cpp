@@ -211,7 +211,7 @@ TEST_F(CallOrder, AFrameWithoutAMotionEndsAfterThePriorHasObserved) {
 TEST_F(CallOrder, OfAResetIsTheDocumentedOne) {
   ASSERT_FALSE(of_reset_.empty()) << "docs/extending.md, Of a reset";
   EXPECT_EQ(run(0).status(), Status::first_frame);
-  EXPECT_EQ(log_.calls, of_reset_) << "what was written into the stages before the first frame is forgotten";
+  EXPECT_EQ(log_.calls, of_reset_) << "the first frame resets every stage";
   run(1);
   log_.calls.clear();
   filter_.reset();
