@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The code of the documents at work. That each block of theirs compiles, as it stands there, is tested by
-// tests/documents.
+// The code of docs/ at work; that of README.md is part of examples/. That each block compiles, as it stands there, is
+// tested by tests/documents.
 
 #include <gtest/gtest.h>
 
@@ -33,10 +33,6 @@ struct StationaryCamera {
 struct TripodPolicies : stillpoint::DefaultPolicies {
   using EgoMotion = StationaryCamera;
 };
-
-// clang-format off
-struct MyPolicies : stillpoint::DefaultPolicies { using EgoMotion = stillpoint::RigidMotion; };
-// clang-format on
 
 /// A textured wall two metres away.
 struct Wall {
@@ -75,23 +71,6 @@ const auto& result = filter.filter_frame({rectified_left, depth, time}, keypoint
   EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
 }
 
-TEST(Documents, TheSnippetOfTheReadmeRuns) {
-  const stillpoint::Camera& camera = kCamera;
-  Wall wall;
-  const cv::Mat &gray = wall.gray, &depth = wall.depth;
-  std::vector<cv::KeyPoint>& keypoints = wall.keypoints;
-  cv::Mat descriptors(static_cast<int>(keypoints.size()), 32, CV_8UC1, cv::Scalar(0));
-  std::vector<float> depths(keypoints.size(), 2.0f);
-  const double time = 1.0;
-  // clang-format off
-stillpoint::FrameFilter<> filter(camera);                             // DefaultPolicies
-const auto& result = filter.filter_frame({gray, stillpoint::DepthView::millimetres(depth), time}, keypoints);
-stillpoint::compact(result.keep(), keypoints, descriptors, depths);   // parallel arrays stay aligned
-  // clang-format on
-  EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
-  EXPECT_EQ(keypoints.size(), depths.size());
-}
-
 TEST(Documents, TheTripodsPoliciesRun) {
   stillpoint::FrameFilter<TripodPolicies> filter(kCamera);
   const Wall wall;
@@ -102,15 +81,6 @@ TEST(Documents, TheTripodsPoliciesRun) {
     EXPECT_EQ(result.status(), stillpoint::Status::ok);
     EXPECT_EQ(result.kept_count(), wall.keypoints.size()) << "nothing moves";
   }
-}
-
-TEST(Documents, TheReplacedStageOfTheReadmeRuns) {
-  stillpoint::FrameFilter<MyPolicies> filter(kCamera);
-  const Wall wall;
-  filter.filter_frame({wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.0}, wall.keypoints);
-  const auto& result =
-      filter.filter_frame({wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.03}, wall.keypoints);
-  EXPECT_TRUE(stillpoint::judged(result.status())) << to_string(result.status());
 }
 
 struct MyDetector {
