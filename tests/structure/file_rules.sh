@@ -2,7 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# file_rules.sh PROJECT: every source says whose it is, no header is long, nobody draws random numbers behind our back.
+# file_rules.sh PROJECT: every source says whose it is, no header is long, nobody draws random numbers behind our back,
+# each header asks for C++17 first.
 # Prints `file:line: ...` for each offence; exit status 1.
 set -euo pipefail
 cd "$1"
@@ -24,6 +25,12 @@ offences=$(
         sed "s|^\([0-9]*\):.*|$file:\1: random numbers come from core/random.hpp only|" || true
       grep -nE 'std::(cout|cerr|clog)|\bf?printf\(' "$file" |
         sed "s|^\([0-9]*\):.*|$file:\1: a guest prints nothing|" || true ;;
+    esac
+    # Whichever header a host includes: the first of ours to be read to its end is one that includes no other.
+    case $file in
+      */core/needs_cpp17.hpp) ;;
+      include/stillpoint/*/*)
+        grep -q '^#include "stillpoint/' "$file" || echo "$file:1: in C++14 not one error: include core/needs_cpp17.hpp" ;;
     esac
   done < <(find "${folders[@]}" -type f \
     \( -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt \) |

@@ -21,7 +21,7 @@ allowed() {
   local own="\"stillpoint/$folder/*\""
   case $folder in
     core) rule='core/ includes the standard library, Eigen and core/ only'
-      printf '%s\n' "$std" "$eigen" "$core*\"" ;;
+      printf '%s\n' "$std" "$eigen" "$core*\"" '"stillpoint needs C++17*' ;;
     prior | match | motion | score | gate | cluster | memory | verdict)
       rule='a stage includes core/, its own folder and OpenCV (opencv.hpp), never another stage'
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;

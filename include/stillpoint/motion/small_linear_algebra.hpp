@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// A = L Lᵀ of a symmetric positive definite matrix; the lower triangle is read. O(N³), no allocation.
