@@ -20,12 +20,12 @@ printf '%s\n' "$licence" 'void f() { std::cerr << 1; }' > tests/may_talk.cpp
 
 bash "$rules" "$PWD" > found && { echo 'the rules were broken and nothing was said'; exit 1; }
 diff - <(cut -d: -f1,2 found) << 'EXPECTED' || { echo 'expected (<) is not what was found (>)'; exit 1; }
-include/stillpoint/core/leaf.hpp:1
 include/stillpoint/gambler.hpp:2
 include/stillpoint/gambler.hpp:3
 include/stillpoint/long.hpp:301
 include/stillpoint/nobodys.hpp:1
 include/stillpoint/talker.hpp:2
 tests/nobodys.sh:1
+include/stillpoint/core/leaf.hpp:1
 EXPECTED
 echo 'all offences were found'

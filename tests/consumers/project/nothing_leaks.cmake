@@ -38,6 +38,12 @@ if(folder)
   endif()
 endif()
 
+# To the host these are headers of the system.
+get_target_property(system_folders stillpoint::core INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+if(folder AND NOT system_folders MATCHES "${LIBRARY}/include")
+  message(FATAL_ERROR "system include folders are '${system_folders}', without the library's")
+endif()
+
 # What a host links carries no flags.
 foreach(component core stillpoint options io dnn onnxruntime shim)
   if(TARGET stillpoint::${component})
