@@ -56,6 +56,12 @@ if(STILLPOINT_WITH_OPENCV)
     list(APPEND STILLPOINT_COMPONENTS dnn)
   endif()
 
+  # stillpoint::compiled: the filter as a library, for hosts with the same compiler flags.
+  if(STILLPOINT_BUILD_COMPILED)
+    add_subdirectory("${PROJECT_SOURCE_DIR}/compiled" "${PROJECT_BINARY_DIR}/compiled")
+    list(APPEND STILLPOINT_COMPONENTS compiled)
+  endif()
+
   # stillpoint::shim: the compiled front for hosts in C++11. It takes the targets above, and nobody else's.
   if(STILLPOINT_BUILD_SHIM)
     add_subdirectory("${PROJECT_SOURCE_DIR}/shim" "${PROJECT_BINARY_DIR}/shim")

@@ -21,7 +21,7 @@ allowed() {
   local own="\"stillpoint/$folder/*\""
   case $folder in
     core) rule='core/ includes the standard library, Eigen and core/ only'
-      printf '%s\n' "$std" "$eigen" "$core*\"" '"stillpoint needs C++17*' ;;
+      printf '%s\n' "$std" "$eigen" "$core*\"" '"stillpoint/version.hpp"' '"stillpoint needs C++17*' ;;
     prior | match | motion | score | gate | cluster | memory | verdict)
       rule='a stage includes core/, its own folder and OpenCV (opencv.hpp), never another stage'
       printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
@@ -33,16 +33,20 @@ allowed() {
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/prior/*"' ;;
     adapters) rule='adapters/ includes the host, core/, verdict/ (what a host takes), the pipeline and its own folder'
       printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/verdict/*"' '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
-    options) rule='options/ includes core/, io/, the pipeline and the stages'
+    options) rule='options/ includes core/, io/, the pipeline, policies/ and the stages'
       printf '%s\n' "$std" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
-        '"stillpoint/policies.hpp"' "${stages[@]}" ;;
+        '"stillpoint/policies.hpp"' '"stillpoint/policies/*"' "${stages[@]}" ;;
     version.hpp | fwd.hpp) rule="$1 includes nothing" ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
       printf '%s\n' "$std" "$opencv" "$core*\"" ;;
-    policies.hpp) rule='policies.hpp includes core/ and the stages'
-      printf '%s\n' "$std" "$core*\"" "${stages[@]}" ;;
+    policies) rule='policies/ includes core/, the stages and its own folder'
+      printf '%s\n' "$std" "$core*\"" "$own" "${stages[@]}" ;;
+    policies.hpp) rule='policies.hpp includes policies/, core/ and the stages'
+      printf '%s\n' "$std" "$core*\"" '"stillpoint/policies/*"' "${stages[@]}" ;;
+    compiled.hpp) rule='compiled.hpp includes core/ and the stages that a host sets'
+      printf '%s\n' "$std" "$core*\"" '"stillpoint/fwd.hpp"' "${stages[@]}" ;;
     stillpoint.hpp) rule='stillpoint.hpp includes neither io/, detectors/, adapters/, evaluation/ nor synthetic/'
-      printf '%s\n' "$std" "$core*\"" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' ;;
+      printf '%s\n' "$std" "$core*\"" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' '"stillpoint/policies/*"' ;;
     *.hpp) rule='a header beside filter_frame.hpp includes core/ and headers of that folder'
       printf '%s\n' "$std" "$core*\"" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' '"stillpoint/fwd.hpp"' \
         "$bridge" ;;
