@@ -107,7 +107,7 @@ TEST(CompiledFilter, OptionsAreThoseOfDefaultPolicies) {
   FrameFilter<> filter(camera());
   FrameFilter<DefaultPolicies> of_headers(camera());
   EXPECT_EQ(options_as_yaml(filter), options_as_yaml(of_headers));
-  EXPECT_GT(options_as_yaml(filter).size(), 1000u);
+  EXPECT_NE(options_as_yaml(filter).find("mask_prediction:"), std::string::npos);  // the last stage
 }
 
 TEST(CompiledFilter, ResetBeginsAnew) {
