@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 
 # file_rules.sh PROJECT: every source says whose it is, no header and no example is long, nobody draws random numbers
-# behind our back.
+# behind our back, each header asks for C++17 first.
 # Prints `file:line: ...` for each offence; exit status 1.
 set -euo pipefail
 cd "$1"
@@ -35,5 +35,8 @@ offences=$(
   done < <(find "${folders[@]}" -type f \
     \( -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt \) |
     LC_ALL=C sort)
+  # Whichever header a host includes: the first of ours to be read to its end is one that includes no other.
+  find include -mindepth 3 -name '*.hpp' ! -name needs_cpp17.hpp -exec grep -L '^#include "stillpoint/' {} + |
+    LC_ALL=C sort | sed 's|$|:1: in C++14 not one error: include core/needs_cpp17.hpp|'
 )
 [[ -z $offences ]] || { printf '%s\n' "$offences"; exit 1; }

@@ -23,7 +23,7 @@ allowed() {
   local own="\"stillpoint/$folder/*\""
   case $folder in
     core) rule='core/ includes the standard library, Eigen and core/ only'
-      printf '%s\n' "$std" "$eigen" "$core" ;;
+      printf '%s\n' "$std" "$eigen" "$core" '"stillpoint/version.hpp"' '"stillpoint needs C++17*' ;;
     depth) rule='depth/ includes core/ and depth/'
       printf '%s\n' "$std" "$eigen" "$core" "$depth" ;;
     pipeline) rule='pipeline/ includes core/, depth/ and pipeline/, never a stage'
@@ -42,16 +42,20 @@ allowed() {
       printf '%s\n' '<*>' "$core" "$bridge" "$own" '"stillpoint/prior/*"' ;;
     adapters) rule='adapters/ includes the host, core/, depth/, verdict/ (what a host takes), the pipeline and its own folder'
       printf '%s\n' '<*>' "$core" "$depth" "$bridge" "$own" '"stillpoint/verdict/*"' '"stillpoint/+([a-z_0-9]).hpp"' ;;
-    options) rule='options/ includes core/, depth/, io/, the pipeline and the stages'
+    options) rule='options/ includes core/, depth/, io/, the pipeline, policies/ and the stages'
       printf '%s\n' "$std" "$core" "$depth" "$pipeline" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
-        '"stillpoint/policies.hpp"' "${stages[@]}" ;;
+        '"stillpoint/policies.hpp"' '"stillpoint/policies/*"' "${stages[@]}" ;;
     version.hpp | fwd.hpp) rule="$1 includes nothing" ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
       printf '%s\n' "$std" "$opencv" "$core" ;;
-    policies.hpp) rule='policies.hpp includes core/, depth/ and the stages'
-      printf '%s\n' "$std" "$core" "$depth" "${stages[@]}" ;;
+    policies) rule='policies/ includes core/, depth/, the stages and its own folder'
+      printf '%s\n' "$std" "$core" "$depth" "$own" "${stages[@]}" ;;
+    policies.hpp) rule='policies.hpp includes policies/, core/, depth/ and the stages'
+      printf '%s\n' "$std" "$core" "$depth" '"stillpoint/policies/*"' "${stages[@]}" ;;
+    compiled.hpp) rule='compiled.hpp includes core/, depth/, pipeline/ and the stages that a host sets'
+      printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/fwd.hpp"' "${stages[@]}" ;;
     stillpoint.hpp) rule='stillpoint.hpp includes neither io/, detectors/, adapters/, evaluation/ nor synthetic/'
-      printf '%s\n' "$std" "$core" "$depth" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' ;;
+      printf '%s\n' "$std" "$core" "$depth" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' '"stillpoint/policies/*"' ;;
     filtered_tracker.hpp) rule='filtered_tracker.hpp includes core/, depth/, pipeline/ and verdict/ (what a host takes)'
       printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/verdict/*"' ;;
     *.hpp) rule='a header beside filter_frame.hpp includes core/, depth/, pipeline/ and headers of that folder'

@@ -244,7 +244,8 @@ inline Camera camera(const cv::Mat& K, const cv::Mat& distortion, int width, int
   AnyDistortion lens;
   if (count != 0)
     lens.model = BrownConrady{coefficient(0), coefficient(1), coefficient(2), coefficient(3), coefficient(4)};
-  return Camera(K.at<float>(0, 0), K.at<float>(1, 1), K.at<float>(0, 2), K.at<float>(1, 2), width, height, lens);
+  const auto intrinsic = [&K](int row, int column) { return static_cast<double>(K.at<float>(row, column)); };
+  return Camera(intrinsic(0, 0), intrinsic(1, 1), intrinsic(0, 2), intrinsic(1, 2), width, height, lens);
 }
 
 }  // namespace stillpoint::orb_slam

@@ -12,6 +12,8 @@
 
 #include <type_traits>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 namespace capability {

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// How badly a feature disagrees with the camera's motion.

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// No warning changes a verdict. The first three tell what the filter did, the others that it may be used wrongly: they

@@ -4,6 +4,8 @@
 
 // Which depths belong to one surface?
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// How much depth may differ on one surface: what the surface is rough by, and the sensor's noise. For a Kinect five

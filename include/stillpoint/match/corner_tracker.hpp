@@ -51,7 +51,8 @@ class CornerTracker {
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       const Vector2f at = to_depth(corners_[c]);
       const int u = rounded(at.x()), v = rounded(at.y());
-      const double measured_m = current.depth.image.contains(u, v) ? double{current.depth.metres(u, v)} : 0.0;
+      const double measured_m =
+          current.depth.image.contains(u, v) ? static_cast<double>(current.depth.metres(u, v)) : 0.0;
       const double depth_m = measured_m > 0 && std::isfinite(measured_m) ? measured_m : coarse_.typical_depth_m();
       const Vector3d point = camera.back_project(camera.undistort(corners_[c].template cast<double>()), depth_m);
       const auto displacement = [&](const Pose& reference_from_current) {

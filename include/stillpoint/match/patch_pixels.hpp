@@ -16,6 +16,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// 8 × 8 numbers, rows one after the other.

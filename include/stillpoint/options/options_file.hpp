@@ -22,7 +22,7 @@
 #include "stillpoint/io/atomic_file.hpp"
 #include "stillpoint/io/yaml_file.hpp"
 #include "stillpoint/options/replaced_options.hpp"
-#include "stillpoint/policies.hpp"
+#include "stillpoint/policies/default_policies.hpp"
 
 namespace stillpoint {
 

@@ -120,7 +120,8 @@ class CarriedDetection {
 
   /// A feature of the object: in the box, and where the object's depth is known, of that depth.
   bool holds(const FeatureStep& step) const noexcept {
-    return detection.holds(step.to, step.to_depth_m) && (!has_depth_range() || step.to_depth_m > 0);
+    return detection.holds(step.to, static_cast<double>(step.to_depth_m)) &&
+           (!has_depth_range() || step.to_depth_m > 0);
   }
 
   /// Medians: limbs swing about the trunk, and some features are not the object's. What comes nearer by a share of its

@@ -82,7 +82,8 @@ class ImageMotion {
   /// @param from     pixel in the frame before
   /// @param depth_m  infinity where it is not known: what is far moves by the camera's rotation alone
   Vector2f standing_step(const Vector2f& from, double depth_m) const {
-    const Vector3d there = turn_ * Vector3d(from.x(), from.y(), 1) + shift_ / depth_m;
+    const Vector3d ray(static_cast<double>(from.x()), static_cast<double>(from.y()), 1);
+    const Vector3d there = turn_ * ray + shift_ / depth_m;
     if (!(there.z() > 0)) return Vector2f::Zero();
     return (there.head<2>() / there.z()).cast<float>() - from;
   }

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <opencv2/core.hpp>
+#include <stillpoint/policies.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <vector>
 

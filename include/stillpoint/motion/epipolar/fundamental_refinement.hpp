@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/motion/small_linear_algebra.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 
 namespace stillpoint {
 

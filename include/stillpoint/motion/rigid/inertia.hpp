@@ -9,7 +9,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/options.hpp"
-#include "stillpoint/motion/small_linear_algebra.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 
 namespace stillpoint {
 

@@ -11,11 +11,11 @@
 #include <type_traits>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/motion/lanes.hpp"
 #include "stillpoint/motion/rigid/motion_equations.hpp"
 #include "stillpoint/motion/rigid/reprojection_residual.hpp"
-#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 

@@ -13,10 +13,10 @@
 #include <optional>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
-#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 

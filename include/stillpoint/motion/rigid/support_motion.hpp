@@ -19,6 +19,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
@@ -27,7 +28,6 @@
 #include "stillpoint/motion/rigid/stationary_camera.hpp"
 #include "stillpoint/motion/rigid/support_constraints.hpp"
 #include "stillpoint/motion/rigid/support_problem.hpp"
-#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/motion/small_linear_algebra.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 
 #include <gtest/gtest.h>
 

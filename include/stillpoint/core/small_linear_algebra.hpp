@@ -8,7 +8,10 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+
+#include "stillpoint/core/needs_cpp17.hpp"
 
 namespace stillpoint {
 
@@ -67,7 +70,8 @@ class Cholesky {
   }
 
  private:
-  double l_[N][N];
+  static constexpr std::size_t kSize = N;
+  double l_[kSize][kSize];
   bool positive_definite_ = false;
 };
 
@@ -134,8 +138,9 @@ class SymmetricEigen {
     for (int k = 0; k < N; ++k) turn(v_[k][p], v_[k][q]);
   }
 
-  double a_[N][N], v_[N][N];
-  int order_[N];
+  static constexpr std::size_t kSize = N;
+  double a_[kSize][kSize], v_[kSize][kSize];
+  int order_[kSize];
 };
 
 }  // namespace stillpoint
