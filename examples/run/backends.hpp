@@ -17,8 +17,8 @@
 #include "../backends/odometry.hpp"
 #include "../backends/orb_odometry.hpp"
 #include "options.hpp"
-#include "stillpoint/adapters/filtered_tracker.hpp"
 #include "stillpoint/core/compact.hpp"
+#include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint_run {

@@ -13,13 +13,13 @@
 
 #include "stillpoint/core/abi.hpp"
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/frame_check.hpp"
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/keypoint.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/fwd.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
+#include "stillpoint/pipeline/frame_check.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
 
@@ -28,7 +28,7 @@ namespace stillpoint {
 struct GuardedDepth;
 struct PatchMatcher;
 class SupportMotion;
-class SightingScore;
+class ReprojectionScore;
 class SurfaceClusters;
 class EvidenceMemory;
 class MaskPrediction;
@@ -55,7 +55,7 @@ struct CompiledFilter {
     PropagatedPrior& prior;
     PatchMatcher& matcher;
     SupportMotion& ego_motion;
-    SightingScore& scorer;
+    ReprojectionScore& scorer;
     TailGate& gate;
     SurfaceClusters& classifier;
     EvidenceMemory& memory;
@@ -107,7 +107,7 @@ class FrameFilter<CompiledPolicies> {
   PropagatedPrior& prior;           ///< where may something move?
   PatchMatcher& matcher;            ///< where was each feature before?
   SupportMotion& ego_motion;        ///< how did the camera move?
-  SightingScore& scorer;            ///< how badly does each feature disagree with that motion?
+  ReprojectionScore& scorer;        ///< how badly does each feature disagree with that motion?
   TailGate& gate;                   ///< which disagreement is more than noise?
   SurfaceClusters& classifier;      ///< what moves together?
   EvidenceMemory& memory;           ///< what did we know of this feature?

@@ -7,8 +7,9 @@
 
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/opencv.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
-#include "stillpoint/verdict/output_modes.hpp"
+#include "stillpoint/verdict/keep_flags.hpp"
+#include "stillpoint/verdict/masked_depth.hpp"
+#include "stillpoint/verdict/weights.hpp"
 #include "stillpoint/version.hpp"
 
 #ifdef STILLPOINT_COMPILED

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The default filter on a sequence of small frames: any key points, depths, times, boxes, poses, cameras, in any order.
+// The default filter on a sequence of small frames: any keypoints, depths, times, boxes, poses, cameras, in any order.
 // One program with shim.cpp and the shim itself, compiled as one file: the filter takes long to compile.
 
 #include <cmath>
@@ -100,7 +100,7 @@ void filter_one(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     kept += result.keep()[i];
-    require(std::isfinite(result.verdict(i).log_odds) && std::isfinite(result.depth_m(i)));
+    require(std::isfinite(result.label(i).log_odds) && std::isfinite(result.depth_m(i)));
   }
   require(kept == result.kept_count());
 }

@@ -2,12 +2,13 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# file_rules.sh PROJECT: every source says whose it is, no header is long, nobody draws random numbers behind our back,
-# each header asks for C++17 first.
+# file_rules.sh PROJECT: every source says whose it is, no header and no example is long, nobody draws random numbers
+# behind our back, each header asks for C++17 first.
 # Prints `file:line: ...` for each offence; exit status 1.
 set -euo pipefail
 cd "$1"
 longest=300  # lines; a header that passes it is two
+declare -A longest_example=([01_minimal]=40 [02_opencv_tracker]=110 [03_custom_stage]=150)  # they are to be read
 
 folders=()
 for folder in include tests examples bench cmake shim .ci; do
@@ -17,7 +18,12 @@ done
 offences=$(
   while IFS= read -r file; do
     head -n 3 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file:1: no line 'SPDX-License-Identifier: MIT'"
-    case $file in include/*)
+    case $file in
+      examples/[0-9]*.cpp)
+        name=$(basename "$file" .cpp) lines=$(wc -l < "$file")
+        ((lines <= ${longest_example[$name]:-0})) ||
+          echo "$file:$lines: more than ${longest_example[$name]:-0} lines: an example shows one idea" ;;
+      include/*)
       lines=$(wc -l < "$file")
       ((lines <= longest)) || echo "$file:$lines: more than $longest lines: split it by idea"
       # Distributions of <random> differ between standard libraries, and global generators between runs.

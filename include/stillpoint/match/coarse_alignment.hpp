@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/match/blurred_image.hpp"
 #include "stillpoint/match/pyramid.hpp"
 #include "stillpoint/match/static_weights.hpp"

@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/atomic_file.hpp"
 #include "stillpoint/io/yaml_file.hpp"

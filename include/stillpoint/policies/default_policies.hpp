@@ -8,14 +8,14 @@
 
 #include "stillpoint/cluster/surface_clusters.hpp"
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
 #include "stillpoint/match/patch_matcher.hpp"
 #include "stillpoint/memory/evidence_memory.hpp"
-#include "stillpoint/motion/support_motion.hpp"
+#include "stillpoint/motion/rigid/support_motion.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
-#include "stillpoint/score/sighting_score.hpp"
+#include "stillpoint/score/reprojection_score.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
 
 namespace stillpoint {
@@ -29,7 +29,7 @@ struct DefaultPolicies {
   using Prior = PropagatedPrior;
   using Matcher = PatchMatcher;
   using EgoMotion = SupportMotion;
-  using Scorer = SightingScore;
+  using Scorer = ReprojectionScore;
   using Gate = TailGate;
   using Classifier = SurfaceClusters;
   using Memory = EvidenceMemory;

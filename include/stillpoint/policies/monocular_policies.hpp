@@ -7,9 +7,9 @@
 #include <cstddef>
 
 #include "stillpoint/cluster/flow_neighbours.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"
-#include "stillpoint/motion/monocular_motion.hpp"
+#include "stillpoint/motion/epipolar/monocular_motion.hpp"
 #include "stillpoint/policies/default_policies.hpp"
 #include "stillpoint/score/sampson_score.hpp"
 

@@ -12,9 +12,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/synthetic/noise.hpp"
 #include "stillpoint/synthetic/scene.hpp"
 

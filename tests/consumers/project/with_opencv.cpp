@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// A host with OpenCV: pictures are cv::Mat, key points cv::KeyPoint.
+// A host with OpenCV: pictures are cv::Mat, keypoints cv::KeyPoint.
 
 #include <cstdio>
 #include <opencv2/core.hpp>

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/motion/support_motion.hpp"
+#include "stillpoint/motion/rigid/support_motion.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/stillpoint.hpp"
 
