@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <stillpoint/detectors/async_detector.hpp>
+#include <stillpoint/policies.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <vector>
 

@@ -16,6 +16,7 @@
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/match/corner_tracker.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/policies.hpp"
 #include "stillpoint/stillpoint.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
