@@ -12,6 +12,8 @@ printf '%s\n' "$licence" '#include <cmath>' > include/stillpoint/good.hpp
 printf '%s\n' '#pragma once' > include/stillpoint/nobodys.hpp
 printf '%s\n' "$licence" '#include <random>' 'int dice() { return rand(); }' > include/stillpoint/gambler.hpp
 printf '%s\n' "$licence" 'void f() { std::cerr << 1; }' > include/stillpoint/talker.hpp
+printf '%s\n' "$licence" '#include <opencv2/core/hal/intrin.hpp>' 'cv::v_float32x4 four();' \
+  '#if __has_include("opencv2/core/hal/intrin.hpp")' > include/stillpoint/vectors.hpp
 { echo "$licence"; printf '//%.0s\n' {1..300}; } > include/stillpoint/long.hpp
 { echo "$licence"; printf '//%.0s\n' {1..40}; } > examples/01_minimal.cpp
 printf '%s\n' "$licence" > examples/02_opencv_tracker.cpp
@@ -30,6 +32,9 @@ include/stillpoint/gambler.hpp:3
 include/stillpoint/long.hpp:301
 include/stillpoint/nobodys.hpp:1
 include/stillpoint/talker.hpp:2
+include/stillpoint/vectors.hpp:2
+include/stillpoint/vectors.hpp:3
+include/stillpoint/vectors.hpp:4
 tests/nobodys.sh:1
 include/stillpoint/core/leaf.hpp:1
 EXPECTED
