@@ -11,7 +11,8 @@ endif()
 
 get_cmake_property(new_variables CACHE_VARIABLES)
 list(REMOVE_ITEM new_variables ${variables_before})
-list(FILTER new_variables EXCLUDE REGEX "^(STILLPOINT_|stillpoint_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_|OpenCV_|Eigen3_|yaml-cpp_|CMAKE_)")
+# CMAKE_ and _GNUInstallDirs_ are of CMake's own modules.
+list(FILTER new_variables EXCLUDE REGEX "^(_GNUInstallDirs_|STILLPOINT_|stillpoint_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_|OpenCV_|Eigen3_|yaml-cpp_|CMAKE_)")
 if(COMPONENT STREQUAL "onnxruntime")
   list(FILTER new_variables EXCLUDE REGEX "^(ONNXRUNTIME_|onnxruntime_DIR)")
 endif()
