@@ -20,12 +20,12 @@
 #include "stillpoint/fwd.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
 #include "stillpoint/pipeline/frame_check.hpp"
-#include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
 
 namespace stillpoint {
 
 struct GuardedDepth;
+class PropagatedPrior;
 struct PatchMatcher;
 class SupportMotion;
 class ReprojectionScore;
