@@ -5,7 +5,7 @@
 #   docker build -t stillpoint .
 #   docker run --rm -v "$PWD/report:/stillpoint/build/demo/report" stillpoint
 # stillpoint_run is in it, too, for your own recording:
-#   docker run --rm -v "$PWD:/work" -w /work stillpoint stillpoint_run --tum FOLDER --out OUT
+#   docker run --rm -v "$PWD:/data" -w /data stillpoint stillpoint_run --tum FOLDER --out OUT
 FROM debian:12
 
 # The packages of examples/demo.sh (tests/structure/packages.sh compares them), in a layer of their own: a change of the
