@@ -33,7 +33,21 @@ rm -rf "$site/pages" "$site/html"
 mkdir -p "$site/pages"
 { printf '%s\n' "${pages[@]}"; python3 tests/structure/links.py --targets . "${pages[@]}"; } | sort -u |
   xargs -d '\n' cp -r --parents -t "$site/pages"
+# GitHub lets a list follow a paragraph without an empty line between them; mkdocs does not.
+find "$site/pages" -name '*.md' | while IFS= read -r page; do
+  awk '/^ *```/ { in_code = !in_code }
+    !in_code && /^- / && before ~ /^[^- ]/ { print "" }
+    { print; before = $0 }' "$page" > "$page.new"
+  mv "$page.new" "$page"
+done
 cp -r "$site/reference/html" "$site/pages/reference"
+# Doxygen leaves the links of its copies of the guides as they are where they lead to a heading or to another file, and links
+# to #nested-classes on pages that have none.
+sed -i -E 's#href="(docs|examples|shim)/#href="../\1/#g; s#href="(hosts/|[a-z0-9_]+\.md)#href="../docs/\1#g
+  s#href="\.\./README\.md#href="../index.html#g; s#href="(\.\./[a-z0-9_/]+)\.md([\#"])#href="\1.html\2#g' \
+  "$site"/pages/reference/{index,md_*}.html
+grep -l 'href="#nested-classes"' "$site"/pages/reference/*.html | xargs -r grep -L 'name="nested-classes"' |
+  xargs -r sed -i 's/ href="#nested-classes"//'
 
 # section TITLE PAGE...: a part of the list of pages.
 section() {
@@ -60,8 +74,5 @@ touch "$scripts/theme_extra.js"
 # Its links are right only where the site lies at the root of a server.
 rm "$site/html/404.html"
 
-# Doxygen has checked the links of the reference (its pages have dead ones to #nested-classes); those of the guides into it
-# are checked here.
-mapfile -t html < <(cd "$site/html" && find . -path ./reference -prune -o -name '*.html' -print | LC_ALL=C sort)
-python3 tests/structure/links.py "$site/html" "${html[@]}"
+python3 tests/structure/links.py "$site/html" .
 echo "The site: $(realpath "$site/html")/index.html, the API reference: reference/index.html beside it"
