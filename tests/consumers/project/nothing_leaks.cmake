@@ -42,9 +42,11 @@ if(folder)
 endif()
 
 # To the host these are headers of the system.
-get_target_property(system_folders stillpoint::core INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
-if(folder AND NOT system_folders MATCHES "${LIBRARY}/include")
-  message(FATAL_ERROR "system include folders are '${system_folders}', without the library's")
+if(folder AND TARGET stillpoint::core)
+  get_target_property(system_folders stillpoint::core INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+  if(NOT system_folders MATCHES "${LIBRARY}/include")
+    message(FATAL_ERROR "system include folders are '${system_folders}', without the library's")
+  endif()
 endif()
 
 # What a host links carries no flags.
