@@ -54,7 +54,7 @@ Method filter_method(std::string name, Adjust adjust) {
           }};
 }
 
-/// A method on corners that Lucas-Kanade has followed, in place of ORB's key points.
+/// A method on corners that Lucas-Kanade has followed, in place of ORB's keypoints.
 inline Method on_followed_corners(std::string name, Method method) {
   return {std::move(name), [run = std::move(method.run)](const LabelledSequence& sequence, bool gives_boxes) {
             return run(with_followed_corners(sequence), gives_boxes);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Whole sequences with everything that is known of them, in memory: key points, labels, boxes, true poses.
+// Whole sequences with everything that is known of them, in memory: keypoints, labels, boxes, true poses.
 
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "clip.hpp"
+#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 
 namespace stillpoint::bench {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Frames to measure on: a camera in a hand, people who walk, and ORB's key points.
+// Frames to measure on: a camera in a hand, people who walk, and ORB's keypoints.
 
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
@@ -19,10 +19,10 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/io/boxes_file.hpp"
 #include "stillpoint/io/tum_sequence.hpp"
 #include "stillpoint/opencv.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 

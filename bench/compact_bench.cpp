@@ -18,7 +18,7 @@
 namespace stillpoint::bench {
 namespace {
 
-/// Key points, descriptors of 32 bytes, and flags that drop a third.
+/// Keypoints, descriptors of 32 bytes, and flags that drop a third.
 struct Features {
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;

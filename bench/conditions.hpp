@@ -19,10 +19,11 @@
 #include "backends/odometry.hpp"
 #include "backends/oracle_filter.hpp"
 #include "degradations.hpp"
-#include "stillpoint/adapters/filtered_tracker.hpp"
-#include "stillpoint/adapters/null_filter.hpp"
+#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/evaluation/trajectory_error.hpp"
 #include "stillpoint/filter_frame.hpp"
+#include "stillpoint/filtered_tracker.hpp"
+#include "stillpoint/null_filter.hpp"
 #include "stillpoint/policies.hpp"
 #include "tally.hpp"
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/synthetic/noise.hpp"
 

@@ -18,7 +18,7 @@ struct TrackPolicies : DefaultPolicies {
   using Matcher = ProvidedMatches;
 };
 
-/// The same frames with corners that Lucas-Kanade has followed, in place of ORB's key points.
+/// The same frames with corners that Lucas-Kanade has followed, in place of ORB's keypoints.
 /// @param sequence  a `Clip` or a `LabelledSequence`
 template <class Sequence>
 Sequence with_followed_corners(Sequence sequence) {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pairs.hpp"
-#include "stillpoint/motion/epipolar_motion.hpp"
+#include "stillpoint/motion/epipolar/epipolar_motion.hpp"
 #include "two_views.hpp"
 
 namespace stillpoint::bench {

@@ -23,10 +23,10 @@
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"
-#include "stillpoint/motion/fundamental_estimator.hpp"
-#include "stillpoint/motion/fundamental_seven_point.hpp"
+#include "stillpoint/motion/epipolar/fundamental_estimator.hpp"
+#include "stillpoint/motion/epipolar/fundamental_seven_point.hpp"
 #include "stillpoint/motion/ransac.hpp"
-#include "stillpoint/motion/rigid_motion.hpp"
+#include "stillpoint/motion/rigid/rigid_motion.hpp"
 #include "two_views.hpp"
 
 namespace stillpoint::bench {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
-#include "stillpoint/motion/essential.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/motion/epipolar/essential.hpp"
 
 namespace stillpoint::bench {
 

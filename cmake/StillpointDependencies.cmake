@@ -13,11 +13,17 @@ if(NOT Eigen3_FOUND OR Eigen3_VERSION VERSION_LESS 3.4)
   stillpoint_missing("Eigen 3.4 or later" libeigen3-dev "Elsewhere, set Eigen3_DIR to the folder of Eigen3Config.cmake.")
 endif()
 
-set(STILLPOINT_OPENCV_COMPONENTS core imgproc video features2d calib3d)
+# What the headers of each target include (tests/structure/opencv_components.sh), and what else our own programs do.
+set(STILLPOINT_OPENCV_COMPONENTS core imgproc video calib3d)
 set(STILLPOINT_IO_OPENCV_COMPONENTS imgcodecs videoio)
 set(STILLPOINT_DNN_OPENCV_COMPONENTS dnn)
+set(STILLPOINT_DEVELOPER_OPENCV_COMPONENTS "")
+if(STILLPOINT_BUILD_TESTS OR STILLPOINT_BUILD_EXAMPLES OR STILLPOINT_BUILD_BENCHMARKS)
+  set(STILLPOINT_DEVELOPER_OPENCV_COMPONENTS features2d)
+endif()
 if(STILLPOINT_WITH_OPENCV)
-  find_package(OpenCV 4.6 CONFIG QUIET COMPONENTS ${STILLPOINT_OPENCV_COMPONENTS} ${STILLPOINT_IO_OPENCV_COMPONENTS}
+  find_package(OpenCV 4.6 CONFIG QUIET
+    COMPONENTS ${STILLPOINT_OPENCV_COMPONENTS} ${STILLPOINT_IO_OPENCV_COMPONENTS} ${STILLPOINT_DEVELOPER_OPENCV_COMPONENTS}
     OPTIONAL_COMPONENTS ${STILLPOINT_DNN_OPENCV_COMPONENTS})
   if(NOT OpenCV_FOUND)
     stillpoint_missing("OpenCV 4.6 or later" libopencv-dev
@@ -28,7 +34,7 @@ endif()
 
 # What reads YAML, and nothing else. Debian 12 has the target yaml-cpp, later versions yaml-cpp::yaml-cpp.
 if(STILLPOINT_WITH_OPENCV)
-  find_package(yaml-cpp CONFIG QUIET)
+  find_package(yaml-cpp 0.7 CONFIG QUIET)
   if(TARGET yaml-cpp::yaml-cpp)
     set(STILLPOINT_YAML_TARGET yaml-cpp::yaml-cpp)
   elseif(TARGET yaml-cpp)

@@ -30,6 +30,8 @@ if(STILLPOINT_WARNINGS_AS_ERRORS)
   target_compile_options(stillpoint_developer INTERFACE
     $<IF:$<CXX_COMPILER_ID:MSVC>,/WX,-Werror>)
 endif()
+list(TRANSFORM STILLPOINT_DEVELOPER_OPENCV_COMPONENTS PREPEND opencv_ OUTPUT_VARIABLE opencv_libraries)
+target_link_libraries(stillpoint_developer INTERFACE ${opencv_libraries})
 # Loading all of OpenCV's image and video libraries takes 0.1 s a program: only those load them that use them.
 target_link_options(stillpoint_developer INTERFACE
   $<$<AND:$<PLATFORM_ID:Linux>,$<CXX_COMPILER_ID:GNU,Clang>>:-Wl,--as-needed>)

@@ -1,16 +1,23 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# The targets a host links. They carry include folders, libraries and the language level, and not one flag.
+# The targets a host links. They carry include folders, libraries and the language level, and not one flag. To a host that
+# adds this project as a subfolder the headers are system headers, as those of an installed package are: its warnings are
+# for its own code.
+
+set(STILLPOINT_SYSTEM SYSTEM)
+if(PROJECT_IS_TOP_LEVEL)
+  set(STILLPOINT_SYSTEM "")
+endif()
 
 # stillpoint::core: needs Eigen only.
 add_library(stillpoint_core INTERFACE)
 add_library(stillpoint::core ALIAS stillpoint_core)
 set_target_properties(stillpoint_core PROPERTIES EXPORT_NAME core)
 target_compile_features(stillpoint_core INTERFACE cxx_std_17)
-target_include_directories(stillpoint_core INTERFACE
+target_include_directories(stillpoint_core ${STILLPOINT_SYSTEM} INTERFACE
   "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>"
-  "$<INSTALL_INTERFACE:include>")
+  "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>")
 target_link_libraries(stillpoint_core INTERFACE Eigen3::Eigen)
 set(STILLPOINT_COMPONENTS core)
 
@@ -47,6 +54,12 @@ if(STILLPOINT_WITH_OPENCV)
     set_target_properties(stillpoint_dnn PROPERTIES EXPORT_NAME dnn)
     target_link_libraries(stillpoint_dnn INTERFACE stillpoint ${opencv_libraries})
     list(APPEND STILLPOINT_COMPONENTS dnn)
+  endif()
+
+  # stillpoint::compiled: the filter as a library, for hosts with the same compiler flags.
+  if(STILLPOINT_BUILD_COMPILED)
+    add_subdirectory("${PROJECT_SOURCE_DIR}/compiled" "${PROJECT_BINARY_DIR}/compiled")
+    list(APPEND STILLPOINT_COMPONENTS compiled)
   endif()
 
   # stillpoint::shim: the compiled front for hosts in C++11. It takes the targets above, and nobody else's.

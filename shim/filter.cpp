@@ -9,6 +9,7 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <stillpoint/detectors/mobility_table.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <stillpoint_shim/types.hpp>
 #include <string>

@@ -13,7 +13,7 @@
 
 namespace examples {
 
-/// One number a feature, 0 to 1; none at all: each counts in full.
+/// One number per feature, 0 to 1; none at all: each counts in full.
 class FeatureWeights {
  public:
   void assign(stillpoint::span<const float> weights) { weights_.assign(weights.begin(), weights.end()); }

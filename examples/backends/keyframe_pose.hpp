@@ -15,9 +15,9 @@
 
 #include "feature_depth.hpp"
 #include "robust_pose.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 
 namespace examples {
 
@@ -142,15 +142,16 @@ class KeyframePose {
       const Vector3d p_keyframe = camera_.back_project(there.pixel, there.depth_m);
       const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(there.depth_m) / there.depth_m);
       const double depth_m = current.depth_m[there.feature];
-      sightings_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[there.feature], options.pixel_sigma,
-                            depth_m, depth_sigma(depth_m), keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
-                            current.features.weights[there.feature], there.feature});
+      observations_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[there.feature],
+                               options.pixel_sigma, depth_m, depth_sigma(depth_m),
+                               keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
+                               current.features.weights[there.feature], there.feature});
       source_.push_back(&keyframe);
     }
   }
 
-  void forget_sightings() {
-    sightings_.clear();
+  void forget_past_observations() {
+    observations_.clear();
     source_.clear();
   }
 
@@ -162,20 +163,20 @@ class KeyframePose {
     for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe)
       nearest.emplace_back(distance(world_from_camera, keyframe->world_from_camera), &*keyframe);
     std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    forget_sightings();
+    forget_past_observations();
     for (std::size_t i = 0; i < std::min(nearest.size(), options.matched_keyframes); ++i)
       see(current, *nearest[i].second, match, camera_from_world, false);
-    return solve(sightings_, camera_, camera_from_world, inlier_);
+    return solve(observations_, camera_, camera_from_world, inlier_);
   }
 
   /// The pose from nothing but likeness: the latest keyframe that gives one, if the nearest ones then agree.
   template <class Match>
   bool relocalize(const Frame& current, const Match& match, Pose& camera_from_world) {
     for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
-      forget_sightings();
+      forget_past_observations();
       see(current, *keyframe, match, camera_from_world, true);
       Pose candidate = camera_from_world;
-      if (!solve(sightings_, camera_, candidate, inlier_) || !solve_near(current, match, candidate)) continue;
+      if (!solve(observations_, camera_, candidate, inlier_) || !solve_near(current, match, candidate)) continue;
       camera_from_world = candidate;
       return true;
     }
@@ -198,8 +199,8 @@ class KeyframePose {
   Camera camera_;
   std::deque<Frame> keyframes_;
   std::vector<FoundAgain> found_;
-  std::vector<PointSighting> sightings_;
-  std::vector<const Frame*> source_;  ///< which keyframe each sighting's point is from
+  std::vector<PointObservation> observations_;
+  std::vector<const Frame*> source_;  ///< which keyframe each observation's point is from
   std::vector<std::uint8_t> inlier_;
   Pose camera_from_world_ = Pose::Identity();
   Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose

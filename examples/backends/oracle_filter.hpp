@@ -17,7 +17,7 @@
 
 namespace examples {
 
-/// Drops key points whose rounded pixel is labelled as a mover, whether it moves now (255) or is parked (128). All
+/// Drops keypoints whose rounded pixel is labelled as a mover, whether it moves now (255) or is parked (128). All
 /// others are kept, those outside the image or on its ignored rim (64) too.
 class OracleFilter {
  public:

@@ -24,7 +24,7 @@ using stillpoint::Vector2d;
 using stillpoint::Vector3d;
 
 /// A point of the world and where the camera sees it.
-struct PointSighting {
+struct PointObservation {
   Vector3d p_world;          ///< metres
   Vector2d pixel;            ///< undistorted
   double pixel_sigma = 1.0;  ///< standard deviation of `pixel`, each axis
@@ -35,44 +35,44 @@ struct PointSighting {
   std::size_t feature = 0;                ///< of the frame: several points may have been found by one
 };
 
-/// Finds the pose that explains the sightings best: least squares of pixel and depth errors, whitened by the
-/// covariance of both the sighting and its point, with the weights of Student's t distribution (Kerl, Sturm, Cremers,
-/// "Robust Odometry Estimation for RGB-D Cameras", ICRA 2013); sightings that fit badly are left out and may come
-/// back, round after round.
+/// Finds the pose that explains the observations best: least squares of pixel and depth errors, whitened by the
+/// covariance of both the observation and its point, with the weights of Student's t distribution (Kerl, Sturm,
+/// Cremers, "Robust Odometry Estimation for RGB-D Cameras", ICRA 2013); observations that fit badly are left out and
+/// may come back, round after round.
 class PoseRefinement {
  public:
   struct Options {
     int rounds = 4;
     int iterations = 8;             ///< at most, in each round
-    double chi_squared = 7.815;     ///< 95 % of a right sighting's errors are below this (three degrees of freedom)
+    double chi_squared = 7.815;     ///< 95 % of a right observation's errors are below this (three degrees of freedom)
     double degrees_of_freedom = 5;  ///< of Student's distribution, as in the paper
   };
   Options options;
 
   /// @param camera_from_world start of the search, and the result
-  /// @param inlier one flag a sighting: whether it fits the result
+  /// @param inlier one flag a observation: whether it fits the result
   /// @return how many do
-  std::size_t operator()(span<const PointSighting> sightings, const Camera& camera, Pose& camera_from_world,
+  std::size_t operator()(span<const PointObservation> observations, const Camera& camera, Pose& camera_from_world,
                          std::vector<std::uint8_t>& inlier) {
-    inlier.assign(sightings.size(), 1);
-    std::size_t inliers = sightings.size();
+    inlier.assign(observations.size(), 1);
+    std::size_t inliers = observations.size();
     for (int round = 0; round < options.rounds && inliers >= 3; ++round) {
-      whiten(sightings, camera, camera_from_world);
-      minimize(sightings, camera, inlier, camera_from_world);
+      whiten(observations, camera, camera_from_world);
+      minimize(observations, camera, inlier, camera_from_world);
       inliers = 0;
-      for (std::size_t i = 0; i < sightings.size(); ++i) {
-        inlier[i] = error(sightings, i, camera, camera_from_world).squaredNorm() < options.chi_squared ? 1 : 0;
+      for (std::size_t i = 0; i < observations.size(); ++i) {
+        inlier[i] = error(observations, i, camera, camera_from_world).squaredNorm() < options.chi_squared ? 1 : 0;
         inliers += inlier[i];
       }
     }
     return inliers;
   }
 
-  /// How badly all sightings fit a pose, the outliers too: minus the logarithm of their likelihood but for a constant,
-  /// by which poses can be compared.
-  double misfit(span<const PointSighting> sightings, const Camera& camera, const Pose& camera_from_world) {
-    whiten(sightings, camera, camera_from_world);
-    return cost(sightings, camera, std::vector<std::uint8_t>(sightings.size(), 1), camera_from_world);
+  /// How badly all observations fit a pose, the outliers too: minus the logarithm of their likelihood but for a
+  /// constant, by which poses can be compared.
+  double misfit(span<const PointObservation> observations, const Camera& camera, const Pose& camera_from_world) {
+    whiten(observations, camera, camera_from_world);
+    return cost(observations, camera, std::vector<std::uint8_t>(observations.size(), 1), camera_from_world);
   }
 
  private:
@@ -83,43 +83,45 @@ class PoseRefinement {
   static constexpr double kNearest_m = 0.05;
 
   /// Error of u, v and depth in standard deviations. Behind the camera it is beyond every limit.
-  Vector3d error(span<const PointSighting> sightings, std::size_t i, const Camera& camera,
+  Vector3d error(span<const PointObservation> observations, std::size_t i, const Camera& camera,
                  const Pose& camera_from_world) const {
-    const PointSighting& sighting = sightings[i];
-    const Vector3d p = camera_from_world * sighting.p_world;
+    const PointObservation& observation = observations[i];
+    const Vector3d p = camera_from_world * observation.p_world;
     if (!(p.z() > kNearest_m)) return Vector3d::Constant(1e6);
-    const Vector2d pixel_error = camera.project(p) - sighting.pixel;
-    const double depth_error = sighting.depth_m > 0 ? p.z() - sighting.depth_m : 0.0;
+    const Vector2d pixel_error = camera.project(p) - observation.pixel;
+    const double depth_error = observation.depth_m > 0 ? p.z() - observation.depth_m : 0.0;
     return whitening_[i] * Vector3d(pixel_error.x(), pixel_error.y(), depth_error);
   }
 
   /// Of u, v and depth by the point in the camera's frame, in pixels and metres.
-  static Matrix3d image_by_point(const PointSighting& sighting, const Camera& camera, const Vector3d& p) {
+  static Matrix3d image_by_point(const PointObservation& observation, const Camera& camera, const Vector3d& p) {
     Matrix3d result;
     result << camera.fx() / p.z(), 0, -camera.fx() * p.x() / (p.z() * p.z()),  //
         0, camera.fy() / p.z(), -camera.fy() * p.y() / (p.z() * p.z()),        //
-        0, 0, sighting.depth_m > 0 ? 1 : 0;
+        0, 0, observation.depth_m > 0 ? 1 : 0;
     return result;
   }
 
   /// Of the error by the motion (translation, rotation vector) of the point in the camera's frame.
-  Jacobian jacobian(span<const PointSighting> sightings, std::size_t i, const Camera& camera, const Vector3d& p) const {
+  Jacobian jacobian(span<const PointObservation> observations, std::size_t i, const Camera& camera,
+                    const Vector3d& p) const {
     Jacobian point_by_motion;
     point_by_motion << Matrix3d::Identity(), -stillpoint::skew(p);
-    return whitening_[i] * image_by_point(sightings[i], camera, p) * point_by_motion;
+    return whitening_[i] * image_by_point(observations[i], camera, p) * point_by_motion;
   }
 
   /// The inverse root of each error's covariance: what the pixel and the depth are wrong by, and the point, whose own
   /// depth shows in the image the more, the farther the camera has gone aside.
-  void whiten(span<const PointSighting> sightings, const Camera& camera, const Pose& camera_from_world) {
+  void whiten(span<const PointObservation> observations, const Camera& camera, const Pose& camera_from_world) {
     whitening_.clear();
-    for (const PointSighting& sighting : sightings) {
-      const double depth_sigma = sighting.depth_m > 0 ? sighting.depth_sigma_m : 1.0;  // any: the error is 0
-      Matrix3d covariance = Vector3d(sighting.pixel_sigma, sighting.pixel_sigma, depth_sigma).cwiseAbs2().asDiagonal();
-      const Vector3d p = camera_from_world * sighting.p_world;
+    for (const PointObservation& observation : observations) {
+      const double depth_sigma = observation.depth_m > 0 ? observation.depth_sigma_m : 1.0;  // any: the error is 0
+      Matrix3d covariance =
+          Vector3d(observation.pixel_sigma, observation.pixel_sigma, depth_sigma).cwiseAbs2().asDiagonal();
+      const Vector3d p = camera_from_world * observation.p_world;
       if (p.z() > kNearest_m) {
         const Vector3d of_point =
-            image_by_point(sighting, camera, p) * (camera_from_world.linear() * sighting.p_sigma_m);
+            image_by_point(observation, camera, p) * (camera_from_world.linear() * observation.p_sigma_m);
         covariance += of_point * of_point.transpose();
       }
       whitening_.push_back(covariance.llt().matrixL().solve(Matrix3d::Identity()));
@@ -127,32 +129,32 @@ class PoseRefinement {
   }
 
   /// Minus the logarithm of Student's density of three errors, but for a constant.
-  double cost(span<const PointSighting> sightings, const Camera& camera, const std::vector<std::uint8_t>& inlier,
+  double cost(span<const PointObservation> observations, const Camera& camera, const std::vector<std::uint8_t>& inlier,
               const Pose& camera_from_world) const {
     const double freedom = options.degrees_of_freedom;
     double sum = 0.0;
-    for (std::size_t i = 0; i < sightings.size(); ++i)
+    for (std::size_t i = 0; i < observations.size(); ++i)
       if (inlier[i] != 0)
-        sum += sightings[i].weight * 0.5 * (freedom + 3) *
-               std::log1p(error(sightings, i, camera, camera_from_world).squaredNorm() / freedom);
+        sum += observations[i].weight * 0.5 * (freedom + 3) *
+               std::log1p(error(observations, i, camera, camera_from_world).squaredNorm() / freedom);
     return sum;
   }
 
-  void minimize(span<const PointSighting> sightings, const Camera& camera, const std::vector<std::uint8_t>& inlier,
-                Pose& camera_from_world) const {
+  void minimize(span<const PointObservation> observations, const Camera& camera,
+                const std::vector<std::uint8_t>& inlier, Pose& camera_from_world) const {
     const double freedom = options.degrees_of_freedom;
     double damping = 1e-4;
-    double current_cost = cost(sightings, camera, inlier, camera_from_world);
+    double current_cost = cost(observations, camera, inlier, camera_from_world);
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
       Matrix6d hessian = Matrix6d::Zero();
       Vector6d gradient = Vector6d::Zero();
-      for (std::size_t i = 0; i < sightings.size(); ++i) {
+      for (std::size_t i = 0; i < observations.size(); ++i) {
         if (inlier[i] == 0) continue;
-        const Vector3d p = camera_from_world * sightings[i].p_world;
+        const Vector3d p = camera_from_world * observations[i].p_world;
         if (!(p.z() > kNearest_m)) continue;
-        const Vector3d e = error(sightings, i, camera, camera_from_world);
-        const Jacobian j = jacobian(sightings, i, camera, p);
-        const double weight = sightings[i].weight * (freedom + 3) / (freedom + e.squaredNorm());
+        const Vector3d e = error(observations, i, camera, camera_from_world);
+        const Jacobian j = jacobian(observations, i, camera, p);
+        const double weight = observations[i].weight * (freedom + 3) / (freedom + e.squaredNorm());
         hessian += weight * j.transpose() * j;
         gradient += weight * j.transpose() * e;
       }
@@ -160,7 +162,7 @@ class PoseRefinement {
       const Vector6d step = -hessian.ldlt().solve(gradient);
       if (!step.allFinite()) return;
       const Pose candidate = moved(camera_from_world, step);
-      const double candidate_cost = cost(sightings, camera, inlier, candidate);
+      const double candidate_cost = cost(observations, camera, inlier, candidate);
       if (candidate_cost < current_cost) {
         camera_from_world = candidate;
         current_cost = candidate_cost;
@@ -179,7 +181,7 @@ class PoseRefinement {
     return stillpoint::orthonormalized(motion * camera_from_world);
   }
 
-  std::vector<Matrix3d> whitening_;  ///< one a sighting
+  std::vector<Matrix3d> whitening_;  ///< one a observation
 };
 
 }  // namespace examples

@@ -19,11 +19,11 @@
 #include "../backends/orb_odometry.hpp"
 #include "map_files.hpp"
 #include "options.hpp"
-#include "stillpoint/adapters/filtered_tracker.hpp"
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
+#include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/opencv.hpp"
 #ifdef STILLPOINT_RUN_WITH_SLAM
 #include "../slam/slam.hpp"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "corrections_policies.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
 
@@ -39,7 +39,7 @@ inline constexpr std::array<Correction, 15> kCorrections = {{
     {"lost-features", "what no longer looks alike is no evidence"},
     {"past-hypothesis", "the motion is that with the most support, whatever went before"},
     {"inertia", "the motion is what was seen, whatever the velocity was"},
-    {"area-support", "the host's key points support the motion, not corners and surfaces by area"},
+    {"area-support", "the host's keypoints support the motion, not corners and surfaces by area"},
     {"depth-guard", "depth at the rounded pixel, edges and holes or not"},
     {"keep-floor", "all that moves is dropped, whatever is left"},
 }};

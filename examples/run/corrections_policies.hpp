@@ -9,13 +9,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "stillpoint/core/depth_lookup.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"
 #include "stillpoint/policies.hpp"
 
 namespace stillpoint_run {
 
-/// Support by the host's key points, followed by Lucas-Kanade, in place of corners one a cell.
+/// Support by the host's keypoints, followed by Lucas-Kanade, in place of corners one a cell.
 struct SwitchedMatcher : stillpoint::PatchMatcher {
   bool supports_by_area = true;
   stillpoint::LucasKanade key_points;
@@ -68,7 +68,7 @@ void each_option(SwitchedMotion& motion, Visit& visit) {
 }
 
 /// Eq. 9 of each older frame in which a feature was found, the mean of the two greatest, in place of likelihoods.
-struct SwitchedScore : stillpoint::SightingScore {
+struct SwitchedScore : stillpoint::ReprojectionScore {
   bool is_whitened = true;
   stillpoint::OffsetScore offset;
 
@@ -83,17 +83,17 @@ struct SwitchedScore : stillpoint::SightingScore {
   template <class Camera>
   void score(const stillpoint::Observations& observations, const stillpoint::Motion& motion, const Camera& camera,
              stillpoint::span<stillpoint::FeatureScore> scores) const {
-    if (is_whitened) return stillpoint::SightingScore::score(observations, motion, camera, scores);
+    if (is_whitened) return stillpoint::ReprojectionScore::score(observations, motion, camera, scores);
     const stillpoint::Matches& matches = observations.matches;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       double most = 0, second = 0;
       bool is_seen = false;
-      for (const stillpoint::OlderFrame& frame : matches.sightings.frames()) {
-        const stillpoint::Sighting& sighting = frame.of_feature[i];
-        if (!std::isfinite(sighting.dissimilarity) || !(sighting.depth_m > 0)) continue;
+      for (const stillpoint::OlderFrame& frame : matches.past_observations.frames()) {
+        const stillpoint::Observation& observation = frame.of_feature[i];
+        if (!std::isfinite(observation.dissimilarity) || !(observation.depth_m > 0)) continue;
         is_seen = true;
         const double value = offset.offset(frame.reference_from_current * matches.current.point[i],
-                                           camera.back_project(sighting.found.cast<double>(), sighting.depth_m));
+                                           camera.back_project(observation.found.cast<double>(), observation.depth_m));
         second = std::max(second, std::min(most, value));
         most = std::max(most, value);
       }

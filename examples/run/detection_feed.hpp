@@ -20,9 +20,9 @@
 #include "options.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/detectors/async_detector.hpp"
+#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/opencv.hpp"
-#include "stillpoint/prior/async_detector.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
 
 namespace stillpoint_run {
 

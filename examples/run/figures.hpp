@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The numbers of a run: counts, times, trajectory errors, recall and false alarms.
+// The numbers of a run: counts, times, trajectory errors, recall and false positives.
 
 #include <algorithm>
 #include <cmath>

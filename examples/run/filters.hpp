@@ -14,11 +14,11 @@
 #include "corrections.hpp"
 #include "frame_source.hpp"
 #include "options.hpp"
-#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/detectors/async_detector.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/policies.hpp"
-#include "stillpoint/prior/async_detector.hpp"
 #include "watched_prior.hpp"
 
 namespace stillpoint_run {

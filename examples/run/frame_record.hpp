@@ -13,9 +13,9 @@
 
 #include "../backends/oracle_filter.hpp"
 #include "frame_source.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/opencv.hpp"
@@ -111,7 +111,7 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   const bool judged = stillpoint::judged(result.status());
   for (std::size_t i = 0; i < record.rows.size(); ++i) {
     FeatureRow& row = record.rows[i];
-    row.label = result.verdict(i);
+    row.label = result.label(i);
     row.reason = to_string(row.label.reason);
     row.score = result.score(i).value;
     row.depth_m = judged ? result.depth_m(i) : detail::depth_at(frame, filter.depth_lookup, row.pixel);

@@ -16,8 +16,8 @@
 
 #include "options.hpp"
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/frame.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/io/boxes_file.hpp"
 #include "stillpoint/io/camera_file.hpp"

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "frame_record.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"
 #include "words.hpp"
 

@@ -46,7 +46,7 @@ inline std::string tiles(const RunRecord& run, const Figures& figures) {
                  "of " + stillpoint::format_fixed(*figures.features_per_frame, 0) + " a frame");
   for (const StageTime& stage : figures.times)
     if (stage.name == "filter" && stage.ms)
-      html += tile("filter's time a frame", stillpoint::format_fixed(stage.ms->median, 1) + " ms",
+      html += tile("filter's time per frame", stillpoint::format_fixed(stage.ms->median, 1) + " ms",
                    "median; 95 % below " + stillpoint::format_fixed(stage.ms->p95, 1) + " ms");
   return html.empty() ? "" : "<dl class=\"tiles\">" + html + "</dl>\n";
 }

@@ -82,7 +82,7 @@ inline std::string label_table(const RunRecord& run) {
               {std::to_string(count.features), std::to_string(count.dropped), fixed_or_none(count.share(), 1, 100)});
   };
   row("on what moves (recall)", score.moving());
-  row("on the background (false alarms)", score.background());
+  row("on the background (false positives)", score.background());
   row("on movers at rest", score.parked());
   return table.html();
 }

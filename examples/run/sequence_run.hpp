@@ -26,11 +26,11 @@
 #include "options.hpp"
 #include "overlay.hpp"
 #include "progress.hpp"
-#include "stillpoint/adapters/filtered_tracker.hpp"
-#include "stillpoint/adapters/null_filter.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/io/number_format.hpp"
-#include "stillpoint/verdict/output_modes.hpp"
+#include "stillpoint/null_filter.hpp"
+#include "stillpoint/verdict/keep_flags.hpp"
 
 namespace stillpoint_run {
 

@@ -11,8 +11,8 @@
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/detectors/async_detector.hpp"
 #include "stillpoint/filter_frame.hpp"
-#include "stillpoint/prior/async_detector.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 
 namespace stillpoint_run {

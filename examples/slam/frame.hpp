@@ -13,8 +13,8 @@
 
 #include "../backends/orb_features.hpp"
 #include "feature_grid.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 
 namespace examples::slam {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bundle_adjustment.hpp"
-#include "stillpoint/motion/triangulation.hpp"
+#include "stillpoint/motion/epipolar/triangulation.hpp"
 
 namespace examples::slam {
 

@@ -9,7 +9,7 @@
 
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/motion/ransac.hpp"
-#include "stillpoint/motion/rigid_estimator.hpp"
+#include "stillpoint/motion/rigid/rigid_estimator.hpp"
 
 namespace examples::slam {
 

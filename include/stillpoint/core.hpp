@@ -8,10 +8,10 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/compact.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/keypoint.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/status.hpp"
+#include "stillpoint/depth/depth_noise.hpp"

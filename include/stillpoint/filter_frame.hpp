@@ -10,19 +10,20 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/frame_check.hpp"
-#include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/keypoint.hpp"
-#include "stillpoint/core/mask_prediction.hpp"
-#include "stillpoint/core/motion_expectation.hpp"
 #include "stillpoint/core/observations.hpp"
-#include "stillpoint/core/optional_stages.hpp"
 #include "stillpoint/core/options.hpp"
-#include "stillpoint/core/policy_traits.hpp"
-#include "stillpoint/core/use_check.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/fwd.hpp"
+#include "stillpoint/pipeline/frame_check.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
+#include "stillpoint/pipeline/mask_prediction.hpp"
+#include "stillpoint/pipeline/motion_expectation.hpp"
+#include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
+#include "stillpoint/pipeline/stage_fit.hpp"
+#include "stillpoint/pipeline/use_check.hpp"
 
 namespace stillpoint {
 
@@ -31,7 +32,7 @@ namespace stillpoint {
 /// @tparam Policies one type for each stage (policies.hpp); inherit from a set and name another type to replace a
 /// stage.
 template <class Policies>
-class FrameFilter : private PolicyContract<Policies> {
+class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies> {
  public:
   using Camera = typename Policies::Camera;
   using DepthNoise = typename Policies::DepthNoise;
@@ -56,10 +57,10 @@ class FrameFilter : private PolicyContract<Policies> {
   typename Policies::KeepFloor keep_floor;      ///< how much must be left?
   MaskPrediction mask_prediction;               ///< where will the coming frame show what moves?
 
-  /// Judges the key points of a frame. Call it before the tracker, with frames in the order of time.
+  /// Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time.
   /// @param host_frame  its views need not outlive the call
   /// @param keypoints   any contiguous range of a type with `keypoint_traits`; pixels of the image as it is
-  /// @return            one verdict a key point, in their order, valid until the next call. A frame that can't be
+  /// @return            one verdict per keypoint, in their order, valid until the next call. A frame that can't be
   ///                    judged has a status that says why, and keeps everything.
   template <class Keypoints>
   const FrameResult& filter_frame(const FrameView& host_frame, const Keypoints& keypoints) {
@@ -149,7 +150,7 @@ class FrameFilter : private PolicyContract<Policies> {
       lift(frame, depth_lookup, camera, depth_noise, matches.current);
       lift(reference, depth_lookup, camera, depth_noise, matches.reference);
       regions.locate(matches.current.pixel, matches.current.depth_m);
-      survey(matcher, history_, frame, rough_motion, camera, depth_noise, matches, workspace_);
+      choose_keyframes(matcher, history_, frame, rough_motion, camera, depth_noise, matches, workspace_);
     });
     timings.run(Stage::memory, [&] { recall(memory, matches, observations_.remembered, workspace_); });
 
@@ -160,7 +161,8 @@ class FrameFilter : private PolicyContract<Policies> {
     });
     timings.run(Stage::prior, [&] { observe(prior, observations_, motion, camera); });
     if (!motion.usable()) return motion.status;
-    timings.run(Stage::match, [&] { look_back(matcher, history_, frame, motion, camera, depth_noise, observations_); });
+    timings.run(Stage::match,
+                [&] { reproject_into_past(matcher, history_, frame, motion, camera, depth_noise, observations_); });
     timings.run(Stage::motion, [&] { refine(ego_motion, observations_, camera, expected, motion, workspace_); });
 
     // Evidence: what disagrees with that motion, by more than noise?

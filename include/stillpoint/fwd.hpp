@@ -24,7 +24,12 @@ struct DefaultPolicies;
 struct MonocularPolicies;
 struct PaperPolicies;
 struct PaperRigidPolicies;
+struct CompiledPolicies;  // those of the library stillpoint::compiled (compiled.hpp)
+#ifdef STILLPOINT_COMPILED
+template <class Policies = CompiledPolicies>
+#else
 template <class Policies = DefaultPolicies>
+#endif
 class FrameFilter;
 
 }  // namespace stillpoint

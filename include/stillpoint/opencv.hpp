@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How the library reads OpenCV's types: images as views, key points as pixels. No pixel is copied.
+// How the library reads OpenCV's types: images as views, keypoints as pixels. No pixel is copied.
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>

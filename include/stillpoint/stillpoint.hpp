@@ -2,13 +2,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// All of the filter: needs Eigen and OpenCV. Readers (io/), detectors/ and evaluation/ are included by themselves.
+// The filter as most hosts want it: needs Eigen and OpenCV. The paper's and the monocular policies (policies.hpp),
+// readers (io/), detectors/ and evaluation/ are included by themselves.
 
 #include "stillpoint/core/compact.hpp"
-#include "stillpoint/filter_frame.hpp"
-#include "stillpoint/match/provided_matches.hpp"
 #include "stillpoint/opencv.hpp"
-#include "stillpoint/policies.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
-#include "stillpoint/verdict/output_modes.hpp"
+#include "stillpoint/verdict/keep_flags.hpp"
+#include "stillpoint/verdict/masked_depth.hpp"
+#include "stillpoint/verdict/weights.hpp"
 #include "stillpoint/version.hpp"
+
+#ifdef STILLPOINT_COMPILED
+#include "stillpoint/compiled.hpp"
+#else
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/policies/default_policies.hpp"
+#endif

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A Frame of a fork that keeps its depths under another name.
-// expected: stillpoint: an ORB-SLAM Frame must have mvDepth, one float a key point; see adapters/orb_slam.hpp
+// expected: stillpoint: an ORB-SLAM Frame must have mvDepth, one float per keypoint; see adapters/orb_slam.hpp
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // At the hook after extraction, something that is no Frame.
-// expected: stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a key point; see adapters/orb_slam.hpp
+// expected: stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a keypoint; see adapters/orb_slam.hpp
 
 #include <vector>
 

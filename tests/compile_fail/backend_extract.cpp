@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A backend that keeps its features to itself.
-// expected: stillpoint: Backend must offer Features extract(const FrameView&); see adapters/filtered_tracker.hpp
+// expected: stillpoint: Backend must offer Features extract(const FrameView&); see stillpoint/filtered_tracker.hpp
 
 #include "sound_tracker.hpp"
 

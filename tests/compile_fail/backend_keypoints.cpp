@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// Features that call their key points something else.
+// Features that call their keypoints something else.
 // expected: stillpoint: Backend::extract must return features with a public, contiguous `keypoints` whose element has stillpoint::keypoint_traits; see core/keypoint.hpp
 
 #include "sound_tracker.hpp"

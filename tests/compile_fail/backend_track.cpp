@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A backend whose pose nobody can use.
-// expected: stillpoint: Backend must offer std::optional<Pose> track(const FrameView&, const Features&); see adapters/filtered_tracker.hpp
+// expected: stillpoint: Backend must offer std::optional<Pose> track(const FrameView&, const Features&); see stillpoint/filtered_tracker.hpp
 
 #include "sound_tracker.hpp"
 

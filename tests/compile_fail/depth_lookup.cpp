@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The member is not const.
-// expected: stillpoint: Policies::DepthLookup must offer double at(const DepthView&, const Vector2f& depth_pixel) const; see core/depth_lookup.hpp
+// expected: stillpoint: Policies::DepthLookup must offer double at(const DepthView&, const Vector2f& depth_pixel) const; see depth/depth_lookup.hpp
 
 #include "sound_policies.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The member is called otherwise.
-// expected: stillpoint: Policies::DepthNoise must offer double sigma(double depth_m) const; see core/depth_noise.hpp
+// expected: stillpoint: Policies::DepthNoise must offer double sigma(double depth_m) const; see depth/depth_noise.hpp
 
 #include "sound_policies.hpp"
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 // A detector that returns what it found.
-// expected: stillpoint: a Detector must offer void detect(const ImageView&, std::vector<Detection>&); see prior/async_detector.hpp
+// expected: stillpoint: a Detector must offer void detect(const ImageView&, std::vector<Detection>&); see detectors/async_detector.hpp
 
-#include "stillpoint/prior/async_detector.hpp"
+#include "stillpoint/detectors/async_detector.hpp"
 
 struct SoundDetector {
   void detect(const stillpoint::ImageView&, std::vector<stillpoint::Detection>&) {}

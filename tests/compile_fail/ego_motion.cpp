@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // The pose alone: nobody would know whether it can be trusted.
-// expected: stillpoint: Policies::EgoMotion must offer Motion estimate(const Observations&, const Camera&, const MotionPrior&, Workspace&); see motion/rigid_motion.hpp
+// expected: stillpoint: Policies::EgoMotion must offer Motion estimate(const Observations&, const Camera&, const MotionPrior&, Workspace&); see motion/rigid/rigid_motion.hpp
 
 #include "sound_policies.hpp"
 

@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# cmake -P first_error.cmake -- COMMAND...: runs a compiler and prints its first error as one line `first error: ...`.
+# cmake -P first_error.cmake -- COMMAND...: runs a compiler and prints its first error as one line `first error: ...`, and how many
+# there were.
 
 math(EXPR last "${CMAKE_ARGC} - 1")
 set(command "")
@@ -19,7 +20,10 @@ execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE output
 if(status EQUAL 0)
   message("it compiles")
 elseif(output MATCHES "error: ([^\n]*)")
-  message("first error: ${CMAKE_MATCH_1}")
+  set(first "${CMAKE_MATCH_1}")
+  string(REGEX MATCHALL "error: " errors "${output}")
+  list(LENGTH errors count)
+  message("first error: ${first}\nerrors: ${count}")
 else()
   message("no error, but status ${status}:\n${output}")
 endif()

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// A host's own key point type that nobody has explained to the library.
+// A host's own keypoint type that nobody has explained to the library.
 // expected: stillpoint: specialise stillpoint::keypoint_traits<YourKeypoint> with static Vector2f pixel(const YourKeypoint&); see core/keypoint.hpp
 
 #include "sound_policies.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stillpoint/cluster/region_clusters.hpp"
-#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/gate/mean_gate.hpp"
 #include "stillpoint/match/provided_matches.hpp"

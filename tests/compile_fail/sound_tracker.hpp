@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "stillpoint/adapters/filtered_tracker.hpp"
-#include "stillpoint/adapters/null_filter.hpp"
+#include "stillpoint/filtered_tracker.hpp"
+#include "stillpoint/null_filter.hpp"
 
 struct SoundFeatures {
   std::vector<stillpoint::Vector2f> keypoints;

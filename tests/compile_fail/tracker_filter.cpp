@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A filter that does not say what it keeps.
-// expected: stillpoint: Filter must offer filter_frame(const FrameView&, const Keypoints&), whose result has keep() -> span<const std::uint8_t>; see adapters/null_filter.hpp
+// expected: stillpoint: Filter must offer filter_frame(const FrameView&, const Keypoints&), whose result has keep() -> span<const std::uint8_t>; see stillpoint/null_filter.hpp
 
 #include "sound_tracker.hpp"
 

@@ -22,6 +22,9 @@ if(COMPONENT STREQUAL "options")
 else()
   list(APPEND arguments -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON)
 endif()
+if(COMPONENT STREQUAL "compiled")  # as the library was
+  list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS}")
+endif()
 if(COMPONENT STREQUAL "onnxruntime")
   list(APPEND arguments "-DONNXRUNTIME_ROOT=${ONNXRUNTIME_ROOT}")
 endif()
@@ -31,6 +34,20 @@ execute_process(
   COMMAND ${CMAKE_COMMAND} -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/project" -B "${BUILD}" ${arguments}
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build "${BUILD}" COMMAND_ERROR_IS_FATAL ANY)
+
+# A host that the library was not compiled for does not link, and the message says what it has.
+if(EXISTS "${BUILD}/mismatches.txt")
+  file(STRINGS "${BUILD}/mismatches.txt" mismatches)
+  foreach(mismatch IN LISTS mismatches)
+    string(REGEX MATCH "^([^:]*):(.*)$" matched "${mismatch}")
+    set(expected "${CMAKE_MATCH_2}")
+    execute_process(COMMAND ${CMAKE_COMMAND} --build "${BUILD}" --target "${CMAKE_MATCH_1}"
+      RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(status EQUAL 0 OR NOT output MATCHES "undefined [^\n]*HostAbi<[^\n]*${expected}")
+      message(FATAL_ERROR "${mismatch}: status ${status}, expected a link error that names it\n${output}")
+    endif()
+  endforeach()
+endif()
 
 file(STRINGS "${BUILD}/programs.txt" programs)
 foreach(program IN LISTS programs)

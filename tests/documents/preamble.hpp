@@ -7,7 +7,8 @@
 
 #include <filesystem>
 #include <opencv2/core.hpp>
-#include <stillpoint/prior/async_detector.hpp>
+#include <stillpoint/detectors/async_detector.hpp>
+#include <stillpoint/policies.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <vector>
 

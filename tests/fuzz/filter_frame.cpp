@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The default filter on a sequence of small frames: any key points, depths, times, boxes, poses, cameras, in any order.
+// The default filter on a sequence of small frames: any keypoints, depths, times, boxes, poses, cameras, in any order.
 // One program with shim.cpp and the shim itself, compiled as one file: the filter takes long to compile.
 
 #include <cmath>
@@ -10,6 +10,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "bytes.hpp"
@@ -100,17 +101,51 @@ void filter_one(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     kept += result.keep()[i];
-    require(std::isfinite(result.verdict(i).log_odds) && std::isfinite(result.depth_m(i)));
+    require(std::isfinite(result.label(i).log_odds) && std::isfinite(result.depth_m(i)));
   }
   require(kept == result.kept_count());
 }
 
-/// Ranges that every option keeps (docs/tuning.md).
+/// Draws one option in eight within its range: an end, or anything between, small values more often.
+class DrawOptions {
+ public:
+  explicit DrawOptions(Bytes& bytes) : bytes_(bytes) {}
+
+  template <class T>
+  void operator()(const char*, T& value, const OptionRange& range) {
+    const int draw = bytes_.byte();
+    if (draw < 224) return;  // what lies behind the last byte is 0: the rest keeps its default
+    const double share = std::pow(bytes_.byte() / 255.0, 6.0);
+    const double number = draw < 8    ? range.least
+                          : draw < 10 ? range.most
+                                      : range.least + share * (range.most - range.least);
+    value = static_cast<T>(number);
+  }
+  template <class T>
+  void operator()(const char*, T& value) {
+    if constexpr (std::is_same_v<T, bool>)
+      value = bytes_.byte() >= 224 ? !value : value;
+    else if constexpr (has_options<T, DrawOptions>::value)
+      each_option(value, *this);
+  }
+  template <class T>
+  void seed(const char*, T& value) {
+    value = static_cast<T>(bytes_.byte());
+  }
+  template <class T, class... Words>
+  void choice(const char*, T& value, Words...) {
+    if (bytes_.byte() >= 224) value = static_cast<T>(bytes_.integer(0, static_cast<int>(sizeof...(Words)) - 1));
+  }
+
+ private:
+  Bytes& bytes_;
+};
+
+/// Any options within their ranges.
 void set_options(Bytes& bytes, FrameFilter<>& filter) {
-  filter.gate.options.false_positive_rate = 1e-6 + 0.4 * bytes.byte() / 255.0;
-  filter.keep_floor.options.fewest_features = static_cast<std::size_t>(bytes.integer(0, 2000));
-  filter.ego_motion.options.max_trials = static_cast<std::size_t>(bytes.integer(1, 300));
-  filter.frame_check.options.longest_gap_s = 0.01 + bytes.byte();
+  DrawOptions draw(bytes);
+  each_option(filter, draw);
+  require(filter.options_error().empty());
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ struct HostHeader {
 #include <type_traits>
 
 #include "stillpoint/core.hpp"
+#include "stillpoint/policies.hpp"
 #include "stillpoint/stillpoint.hpp"
 
 namespace forward_declarations {

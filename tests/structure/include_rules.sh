@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# include_rules.sh PROJECT: which header may include what. A stage knows core/ and nothing of its neighbours; only
-# filter_frame.hpp and policies.hpp know them all. Prints `file:line: 'include' ...` for each offence; exit status 1.
+# include_rules.sh PROJECT: which header may include what. A stage knows core/ (types), depth/ and pipeline/ (what is
+# kept between frames) and nothing of its neighbours; only filter_frame.hpp and policies.hpp know them all. Prints `file:line: 'include' ...` for each offence; exit status 1.
 set -euo pipefail
 cd "$1"
 
@@ -11,7 +11,9 @@ cd "$1"
 std='<+([a-z_0-9])>'  # [[ ]] knows +(...): one or more
 eigen='<Eigen/*>'
 opencv='<opencv2/*>'
-core='"stillpoint/core/'
+core='"stillpoint/core/*"'
+depth='"stillpoint/depth/*"'
+pipeline='"stillpoint/pipeline/*"'
 bridge='"stillpoint/opencv.hpp"'  # how OpenCV's types are read
 
 # allowed HEADER: the patterns of what that header may include, one a line, and a name for the rule.
@@ -21,30 +23,43 @@ allowed() {
   local own="\"stillpoint/$folder/*\""
   case $folder in
     core) rule='core/ includes the standard library, Eigen and core/ only'
-      printf '%s\n' "$std" "$eigen" "$core*\"" ;;
-    prior | match | motion | score | gate | cluster | memory | verdict)
-      rule='a stage includes core/, its own folder and OpenCV (opencv.hpp), never another stage'
-      printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
-    evaluation | stereo | synthetic) rule="$folder/ includes core/, its own folder and OpenCV"
-      printf '%s\n' "$std" "$eigen" "$opencv" "$core*\"" "$bridge" "$own" ;;
+      printf '%s\n' "$std" "$eigen" "$core" '"stillpoint/version.hpp"' '"stillpoint needs C++17*' ;;
+    depth) rule='depth/ includes core/ and depth/'
+      printf '%s\n' "$std" "$eigen" "$core" "$depth" ;;
+    pipeline) rule='pipeline/ includes core/, depth/ and pipeline/, never a stage'
+      printf '%s\n' "$std" "$eigen" "$core" "$depth" "$pipeline" ;;
+    motion) rule='motion/ includes core/, depth/, pipeline/, motion/ and OpenCV; neither method knows the other'
+      printf '%s\n' "$std" "$eigen" "$opencv" "$core" "$depth" "$pipeline" "$bridge" '"stillpoint/motion/+([a-z_0-9]).hpp"'
+      [[ $1 != motion/*/* ]] || printf '"stillpoint/%s/*"\n' "${1%/*}" ;;
+    prior | match | score | gate | cluster | memory | verdict)
+      rule='a stage includes core/, depth/, pipeline/, its own folder and OpenCV (opencv.hpp), never another stage'
+      printf '%s\n' "$std" "$eigen" "$opencv" "$core" "$depth" "$pipeline" "$bridge" "$own" ;;
+    evaluation | stereo | synthetic) rule="$folder/ includes core/, depth/, its own folder and OpenCV"
+      printf '%s\n' "$std" "$eigen" "$opencv" "$core" "$depth" "$bridge" "$own" ;;
     io) rule='io/ includes core/, evaluation/ (trajectories), its own folder, OpenCV and yaml-cpp'
-      printf '%s\n' "$std" '<yaml-cpp/*>' "$eigen" "$opencv" "$core*\"" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;
+      printf '%s\n' "$std" '<yaml-cpp/*>' "$eigen" "$opencv" "$core" "$bridge" "$own" '"stillpoint/evaluation/*"' ;;
     detectors) rule='detectors/ includes core/, prior/, its own folder, OpenCV and networks'\'' libraries'
-      printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/prior/*"' ;;
-    adapters) rule='adapters/ includes the host, core/, verdict/ (what a host takes), the pipeline and its own folder'
-      printf '%s\n' '<*>' "$core*\"" "$bridge" "$own" '"stillpoint/verdict/*"' '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' ;;
-    options) rule='options/ includes core/, io/, the pipeline and the stages'
-      printf '%s\n' "$std" "$core*\"" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
-        '"stillpoint/policies.hpp"' "${stages[@]}" ;;
+      printf '%s\n' '<*>' "$core" "$bridge" "$own" '"stillpoint/prior/*"' ;;
+    adapters) rule='adapters/ includes the host, core/, depth/, verdict/ (what a host takes), the pipeline and its own folder'
+      printf '%s\n' '<*>' "$core" "$depth" "$bridge" "$own" '"stillpoint/verdict/*"' '"stillpoint/+([a-z_0-9]).hpp"' ;;
+    options) rule='options/ includes core/, depth/, io/, the pipeline, policies/ and the stages'
+      printf '%s\n' "$std" "$core" "$depth" "$pipeline" "$own" '"stillpoint/io/*"' '"stillpoint/filter_frame.hpp"' \
+        '"stillpoint/policies.hpp"' '"stillpoint/policies/*"' "${stages[@]}" ;;
     version.hpp | fwd.hpp) rule="$1 includes nothing" ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
-      printf '%s\n' "$std" "$opencv" "$core*\"" ;;
-    policies.hpp) rule='policies.hpp includes core/ and the stages'
-      printf '%s\n' "$std" "$core*\"" "${stages[@]}" ;;
+      printf '%s\n' "$std" "$opencv" "$core" ;;
+    policies) rule='policies/ includes core/, depth/, the stages and its own folder'
+      printf '%s\n' "$std" "$core" "$depth" "$own" "${stages[@]}" ;;
+    policies.hpp) rule='policies.hpp includes policies/, core/, depth/ and the stages'
+      printf '%s\n' "$std" "$core" "$depth" '"stillpoint/policies/*"' "${stages[@]}" ;;
+    compiled.hpp) rule='compiled.hpp includes core/, depth/, pipeline/ and the stages that a host sets'
+      printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/fwd.hpp"' "${stages[@]}" ;;
     stillpoint.hpp) rule='stillpoint.hpp includes neither io/, detectors/, adapters/, evaluation/ nor synthetic/'
-      printf '%s\n' "$std" "$core*\"" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' ;;
-    *.hpp) rule='a header beside filter_frame.hpp includes core/ and headers of that folder'
-      printf '%s\n' "$std" "$core*\"" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' '"stillpoint/fwd.hpp"' \
+      printf '%s\n' "$std" "$core" "$depth" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' '"stillpoint/policies/*"' ;;
+    filtered_tracker.hpp) rule='filtered_tracker.hpp includes core/, depth/, pipeline/ and verdict/ (what a host takes)'
+      printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/verdict/*"' ;;
+    *.hpp) rule='a header beside filter_frame.hpp includes core/, depth/, pipeline/ and headers of that folder'
+      printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' '"stillpoint/fwd.hpp"' \
         "$bridge" ;;
     *) rule="the folder $folder/ is not known to tests/structure/include_rules.sh: say there what it may include" ;;
   esac

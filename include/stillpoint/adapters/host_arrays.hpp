@@ -32,20 +32,20 @@ struct HostArray {
   bool is_unused() const { return is_optional && size() == 0; }
 };
 
-/// An array that has one entry a feature.
+/// An array that has one entry per feature.
 template <class Array>
 HostArray<Array> host_array(const char* name, Array& array) {
   return {name, array};
 }
 
-/// An array that has one entry a feature, or none at all.
+/// An array that has one entry per feature, or none at all.
 template <class Array>
 HostArray<Array> optional_host_array(const char* name, Array& array) {
   return {name, array, true};
 }
 
 /// @param host    begins the message
-/// @param keep    one byte a feature
+/// @param keep    one byte per feature
 /// @param arrays  an optional one may be empty
 /// @throws Error that names the first array with another size than `keep`
 template <class... Arrays>
@@ -60,7 +60,7 @@ void require_aligned_host_arrays(const char* host, span<const std::uint8_t> keep
 
 /// As `compact`, with an error that names the array.
 /// @param host    begins the message
-/// @param keep    one byte a feature, 0 drops
+/// @param keep    one byte per feature, 0 drops
 /// @param arrays  an optional one may be empty
 /// @return how many are left
 /// @throws Error as `require_aligned_host_arrays`; then none was changed. O(n) for each array.

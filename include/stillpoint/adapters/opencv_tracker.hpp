@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Trackers made of OpenCV alone: key points with descriptors, or points followed by Lucas-Kanade.
+// Trackers made of OpenCV alone: keypoints with descriptors, or points followed by Lucas-Kanade.
 //
-// `Features` is what Backend::extract may return (adapters/filtered_tracker.hpp).
+// `Features` is what Backend::extract may return (stillpoint/filtered_tracker.hpp).
 
 #include <cstddef>
 #include <cstdint>
@@ -27,8 +27,8 @@ namespace stillpoint::opencv_tracker {
 template <class Keypoint = cv::KeyPoint>
 struct Features {
   std::vector<Keypoint> keypoints;  ///< pixels of the image as it is
-  cv::Mat descriptors;              ///< one row a key point, or empty
-  std::vector<int> ids;             ///< one a key point, or empty
+  cv::Mat descriptors;              ///< one row a keypoint, or empty
+  std::vector<int> ids;             ///< one per keypoint, or empty
 
   /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(n).
   void compact(span<const std::uint8_t> keep) {

@@ -28,8 +28,8 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/verdict/keep_flags.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
-#include "stillpoint/verdict/output_modes.hpp"
 
 namespace stillpoint::orb_slam {
 
@@ -48,8 +48,8 @@ template <class Frame>
 struct FrameAtExtraction {
   static constexpr bool kKeys = offers<Frame>([](auto& frame) -> decltype(void(frame.mvKeys)) {});
   static constexpr bool holds = kKeys && offers<Frame>([](auto& frame) -> decltype(void(frame.mDescriptors)) {});
-  static_assert(kKeys, "stillpoint: an ORB-SLAM Frame must have mvKeys, a vector of key points; see adapters/orb_slam.hpp");
-  static_assert(!kKeys || holds, "stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a key point; see adapters/orb_slam.hpp");
+  static_assert(kKeys, "stillpoint: an ORB-SLAM Frame must have mvKeys, a vector of keypoints; see adapters/orb_slam.hpp");
+  static_assert(!kKeys || holds, "stillpoint: an ORB-SLAM Frame must have mDescriptors, one row a keypoint; see adapters/orb_slam.hpp");
 };
 
 /// What hook A touches.
@@ -61,9 +61,9 @@ struct FrameWithDepth {
   static constexpr bool kDepth = kRight && offers<Frame>([](auto& frame) -> decltype(void(frame.mvDepth)) {});
   static constexpr bool holds = kDepth && offers<Frame>([](auto& frame) -> decltype(void(frame.N = 0)) {});
   static_assert(!kBase || kKeysUn, "stillpoint: an ORB-SLAM Frame must have mvKeysUn, the undistorted mvKeys; see adapters/orb_slam.hpp");
-  static_assert(!kKeysUn || kRight, "stillpoint: an ORB-SLAM Frame must have mvuRight, one float a key point; see adapters/orb_slam.hpp");
-  static_assert(!kRight || kDepth, "stillpoint: an ORB-SLAM Frame must have mvDepth, one float a key point; see adapters/orb_slam.hpp");
-  static_assert(!kDepth || holds, "stillpoint: an ORB-SLAM Frame must have N, the number of key points; see adapters/orb_slam.hpp");
+  static_assert(!kKeysUn || kRight, "stillpoint: an ORB-SLAM Frame must have mvuRight, one float per keypoint; see adapters/orb_slam.hpp");
+  static_assert(!kRight || kDepth, "stillpoint: an ORB-SLAM Frame must have mvDepth, one float per keypoint; see adapters/orb_slam.hpp");
+  static_assert(!kDepth || holds, "stillpoint: an ORB-SLAM Frame must have N, the number of keypoints; see adapters/orb_slam.hpp");
 };
 // clang-format on
 
@@ -78,9 +78,9 @@ constexpr bool is_finished_frame = offers<Frame>([](auto& frame) -> decltype(  /
 /// Hook A: compacts mvKeys, mvKeysUn, mvuRight, mvDepth and the rows of mDescriptors together, in order, and sets N.
 /// Call it when all of them are filled and nothing else is sized by N: in the RGB-D constructor after
 /// ComputeStereoFromRGBD, in that for rectified stereo after ComputeStereoMatches.
-/// @param keep   one byte a key point, 0 drops; all 0 drops none
+/// @param keep   one byte per keypoint, 0 drops; all 0 drops none
 /// @param frame  the host's Frame
-/// @param more   arrays of a fork with one entry a key point
+/// @param more   arrays of a fork with one entry per keypoint
 /// @return the new N
 /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(N).
 template <class Frame, class... MoreArrays>
@@ -103,9 +103,9 @@ std::size_t compact_after_depth(span<const std::uint8_t> keep, Frame& frame, Mor
 
 /// Hook B: compacts mvKeys and the rows of mDescriptors; the host derives the rest, N too, from them.
 /// Call it right after ExtractORB.
-/// @param keep   one byte a key point, 0 drops; all 0 drops none
+/// @param keep   one byte per keypoint, 0 drops; all 0 drops none
 /// @param frame  the host's Frame
-/// @param more   arrays of a fork with one entry a key point
+/// @param more   arrays of a fork with one entry per keypoint
 /// @return how many are left
 /// @throws Error as `compact_after_depth`. O(N).
 template <class Frame, class... MoreArrays>
@@ -119,22 +119,22 @@ std::size_t compact_after_extraction(span<const std::uint8_t> keep, Frame& frame
   }
 }
 
-/// Hook B for one of two fisheye cameras (ORB-SLAM3), whose key points outside of the common view come first: mvKeys,
+/// Hook B for one of two fisheye cameras (ORB-SLAM3), whose keypoints outside of the common view come first: mvKeys,
 /// mDescriptors, monoLeft, or mvKeysRight, mDescriptorsRight, monoRight. Before Nleft and Nright are set.
-/// @param keep         one byte a key point of this camera, 0 drops; all 0 drops none
+/// @param keep         one byte per keypoint of this camera, 0 drops; all 0 drops none
 /// @param keypoints    of this camera
-/// @param descriptors  one row a key point
+/// @param descriptors  one row a keypoint
 /// @param mono_count   how many come first; recounted
 /// @return how many are left
-/// @throws Error as `compact_after_depth`, and if `mono_count` is no number of key points. O(N).
+/// @throws Error as `compact_after_depth`, and if `mono_count` is no number of keypoints. O(N).
 template <class Keypoints, class Descriptors>
 std::size_t compact_mono_first(span<const std::uint8_t> keep, Keypoints& keypoints, Descriptors& descriptors,
                                int& mono_count) {
   if (mono_count < 0 || static_cast<std::size_t>(mono_count) > keep.size())
     throw Error("orb_slam: mono_count is " + std::to_string(mono_count) + ", expected 0 to the " +
-                std::to_string(keep.size()) + " key points of the camera");
+                std::to_string(keep.size()) + " keypoints of the camera");
   const std::size_t kept =
-      detail::compact_unless_all(keep, host_array("key points", keypoints), host_array("descriptors", descriptors));
+      detail::compact_unless_all(keep, host_array("keypoints", keypoints), host_array("descriptors", descriptors));
   if (kept_count(keep) > 0) mono_count = static_cast<int>(kept_count(keep.first(static_cast<std::size_t>(mono_count))));
   return kept;
 }
@@ -142,9 +142,9 @@ std::size_t compact_mono_first(span<const std::uint8_t> keep, Keypoints& keypoin
 /// Hook C: compacts a finished Frame, so that the host's Frame need not know the filter: the arrays of hook A,
 /// mvpMapPoints and mvbOutlier together, in order; mGrid gets the new indices, N the new number. The Frame is as if
 /// hook A had compacted it while it was made. Call it between `mCurrentFrame = Frame(...)` and `Track()`.
-/// @param keep   one byte a keypoint, 0 drops; all 0 drops none
+/// @param keep   one byte per keypoint, 0 drops; all 0 drops none
 /// @param frame  the host's Frame, of one RGB-D camera
-/// @param more   arrays of a fork with one entry a keypoint
+/// @param more   arrays of a fork with one entry per keypoint
 /// @return the new N
 /// @throws Error as `compact_after_depth`. O(N), one allocation.
 template <class Frame, class... MoreArrays>
@@ -197,7 +197,7 @@ inline int features_to_extract(int wanted, double dropped_area_share, double mos
 /// Erases the candidates under a mask before DistributeOctTree shares out the budget among them: the features that are
 /// left then all stand where the mask keeps. Stable, one pass. Nothing left is no harm here.
 /// @param mask        gray8 of the image's size, 255 keeps, 0 drops; an empty one drops nothing
-/// @param candidates  vToDistributeKeys of one pyramid level: key points counted from that level's border
+/// @param candidates  vToDistributeKeys of one pyramid level: keypoints counted from that level's border
 /// @param border_px   minBorderX and minBorderY, pixels of the level
 /// @param scale       mvScaleFactor[level]
 /// @throws Error if the mask is neither empty nor gray8
@@ -213,9 +213,9 @@ void erase_masked_candidates(const ImageView& mask, Candidates& candidates, int 
 }
 
 /// invSigma2 of an edge in Optimizer::PoseOptimization, times what the filter thinks of its feature.
-/// @param inv_sigma2  the host's, of the key point's pyramid level
-/// @param weights     one a key point as `stillpoint::weights` gives them, 0 to 1; empty: all are trusted
-/// @param i           the key point
+/// @param inv_sigma2  the host's, of the keypoint's pyramid level
+/// @param weights     one per keypoint as `stillpoint::weights` gives them, 0 to 1; empty: all are trusted
+/// @param i           the keypoint
 /// @param least       lowest weight: an edge without information has no error and passes for an inlier
 template <class Scalar>
 Scalar weighted_inv_sigma2(Scalar inv_sigma2, span<const float> weights, std::size_t i, float least = 0.05f) {
@@ -244,7 +244,8 @@ inline Camera camera(const cv::Mat& K, const cv::Mat& distortion, int width, int
   AnyDistortion lens;
   if (count != 0)
     lens.model = BrownConrady{coefficient(0), coefficient(1), coefficient(2), coefficient(3), coefficient(4)};
-  return Camera(K.at<float>(0, 0), K.at<float>(1, 1), K.at<float>(0, 2), K.at<float>(1, 2), width, height, lens);
+  const auto intrinsic = [&K](int row, int column) { return static_cast<double>(K.at<float>(row, column)); };
+  return Camera(intrinsic(0, 0), intrinsic(1, 1), intrinsic(0, 2), intrinsic(1, 2), width, height, lens);
 }
 
 }  // namespace stillpoint::orb_slam

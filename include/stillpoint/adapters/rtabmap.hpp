@@ -20,15 +20,15 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
-#include "stillpoint/verdict/output_modes.hpp"
+#include "stillpoint/verdict/masked_depth.hpp"
 
 namespace stillpoint::rtabmap {
 
 /// Compacts the three arguments of SensorData::setFeatures together, in order. The last two may be empty, as there.
-/// @param keep         one byte a key point, 0 drops
+/// @param keep         one byte per keypoint, 0 drops
 /// @param keypoints    pixels
 /// @param keypoints3D  points in the camera's frame, as the host wants them
-/// @param descriptors  one row a key point
+/// @param descriptors  one row a keypoint
 /// @return how many are left
 /// @throws Error that names the array if one has another size than `keep`; then nothing was changed. O(n).
 template <class Keypoints, class Keypoints3D, class Descriptors>

@@ -5,7 +5,7 @@
 // stella_vslam takes the filter's answer in two ways, both without a patch.   docs/adopting.md has the whole of it.
 //
 //   mask       frame_mask_0_drops       feed_RGBD_frame(rgb, depth, timestamp, mask): before the features are chosen
-//   key points compact_observation      between create_RGBD_frame and feed_frame: drops no neighbours of what moves
+//   keypoints compact_observation      between create_RGBD_frame and feed_frame: drops no neighbours of what moves
 //
 // A mask costs more than what it covers: a cell of 64 pixels of the pyramid level is skipped whole where one of its
 // corners is dropped. No header of the host is included: members are meant by name.
@@ -47,7 +47,7 @@ inline cv::Mat frame_mask_0_drops(const ImageView& mask, int image_width, int im
 /// Compacts descriptors_, undist_keypts_, bearings_, stereo_x_right_ and depths_ together, in order (the last two are
 /// empty in a monocular frame), and gives keypt_indices_in_cells_ the new indices. The host's own
 /// assign_keypoints_to_grid appends to what the cells hold: it would have to find them empty.
-/// @param keep         one byte a key point, 0 drops
+/// @param keep         one byte per keypoint, 0 drops
 /// @param observation  frm_obs_ of the frame; construct a new frame of it, whose landmarks have its size
 /// @param old_to_new   becomes the map of indices, for arrays of your own; its memory is reused
 /// @return how many are left

@@ -74,7 +74,7 @@ std::size_t compact_tracks(span<const std::uint8_t> keep, Tracker& tracker, More
 }
 
 /// Adds the ids of what was dropped to a set, as Estimator::removeOutliers takes it.
-/// @param keep     one byte a feature, 0 drops
+/// @param keep     one byte per feature, 0 drops
 /// @param ids      the features' ids, in the order of the flags
 /// @param dropped  what is in it stays
 /// @throws Error if there is not one id a flag

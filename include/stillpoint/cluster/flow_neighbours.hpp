@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
@@ -22,6 +23,9 @@ namespace stillpoint {
 /// the regions say of its place. A feature without a match takes its neighbours' alone.
 class FlowNeighbours {
  public:
+  using Needs = Capabilities<capability::log_likelihoods, capability::tail_threshold>;
+  using Provides = Capabilities<capability::log_odds>;
+
   struct Options {
     float reach_px = 30.0f;        ///< how far neighbours are
     float same_flow_px = 1.5f;     ///< steps since the reference frame that differ less are one motion …

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "stillpoint/cluster/k_means.hpp"
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/random.hpp"
@@ -25,6 +26,9 @@ namespace stillpoint {
 /// Features without a score are `unknown`: kept outside dynamic boxes, dropped inside (the paper leaves it open).
 class RegionClusters {
  public:
+  using Needs = Capabilities<capability::metric_depth>;
+  using Provides = Capabilities<capability::verdicts>;
+
   struct Options {
     std::size_t features_per_cluster = 10;  ///< k = m / 10; fewer than that many: each is its own cluster
     int max_iterations = 100;               ///< the paper: until assignments no longer change

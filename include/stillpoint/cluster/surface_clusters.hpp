@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "stillpoint/cluster/k_means.hpp"
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
@@ -26,6 +27,9 @@ namespace stillpoint {
 /// outside of regions, by K-means in coordinates in which noise is round; a cluster with two populations is split.
 class SurfaceClusters {
  public:
+  using Needs = Capabilities<capability::metric_depth, capability::log_likelihoods, capability::tail_threshold>;
+  using Provides = Capabilities<capability::log_odds>;
+
   struct Options {
     std::size_t features_per_cluster = 30;
     float own_share = 0.5f;      ///< of a feature's own score in its log-odds; the rest is its cluster's mean
@@ -62,7 +66,8 @@ class SurfaceClusters {
         const float own = scores[i].scored() ? held(scores[i]) : common[i];
         label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common[i], kMostShared) - level;
         label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
-        if (!matches.current.has_depth(i) && i < matches.sightings.point.size() && matches.sightings.is_guess(i))
+        if (!matches.current.has_depth(i) && i < matches.past_observations.point.size() &&
+            matches.past_observations.is_guess(i))
           label.log_odds += kDepthlessShift;
       } else {
         label.log_odds = without_depth(scores[i], matches.current.pixel[i], neighbour_px, grid, common, level);
@@ -107,8 +112,8 @@ class SurfaceClusters {
   /// none.
   static double surface_depth_m(const Matches& matches, std::size_t i) noexcept {
     if (matches.current.has_depth(i)) return matches.current.depth_m[i];
-    if (i >= matches.sightings.point.size()) return 0.0;
-    const double supposed_m = matches.sightings.point[i].z();
+    if (i >= matches.past_observations.point.size()) return 0.0;
+    const double supposed_m = matches.past_observations.point[i].z();
     return supposed_m > 0 ? supposed_m : 0.0;
   }
 

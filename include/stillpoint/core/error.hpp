@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// What a constructor or reader throws. The message names the file or field, the value found and what was expected.

@@ -18,16 +18,17 @@
 
 namespace stillpoint {
 
-/// One entry for each of the host's key points, in their order. Belongs to the filter and holds until its next frame.
+/// One entry for each of the host's keypoints, in their order. Belongs to the filter and holds until its next frame.
 class FrameResult {
  public:
-  /// One byte a key point: 1 keep, 0 drop. What `compact` takes.
+  /// One byte per keypoint: 1 keep, 0 drop. What `compact` takes.
   span<const std::uint8_t> keep() const noexcept { return keep_; }
   std::size_t size() const noexcept { return labels_.size(); }
   std::size_t kept_count() const noexcept { return kept_count_; }
 
-  /// Verdict, reason, cluster and probability of key point `i`.
-  const Label& verdict(std::size_t i) const noexcept { return labels_[i]; }
+  /// Verdict, reason, cluster and probability of keypoint `i`.
+  const Label& label(std::size_t i) const noexcept { return labels_[i]; }
+  [[deprecated("label(i)")]] const Label& verdict(std::size_t i) const noexcept { return labels_[i]; }
   const FeatureScore& score(std::size_t i) const noexcept { return scores_[i]; }
   double depth_m(std::size_t i) const noexcept { return depth_m_[i]; }  ///< 0 where there is none
 

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 enum class PixelFormat : std::uint8_t {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How a host's key points are read: one trait, so that no host must convert its own.
+// How a host's keypoints are read: one trait, so that no host must convert its own.
 
 #include <type_traits>
 #include <utility>
@@ -13,7 +13,7 @@
 
 namespace stillpoint {
 
-/// Specialise for your key point type with `static Vector2f pixel(const Keypoint&)`: its position in the image as it is
+/// Specialise for your keypoint type with `static Vector2f pixel(const Keypoint&)`: its position in the image as it is
 /// (distorted, as detected), pixels, integer coordinates at pixel centres. Eigen's 2-vectors are here, OpenCV's types
 /// in opencv.hpp.
 template <class Keypoint, class = void>

@@ -27,7 +27,8 @@ inline void drop_disc(const Vector2f& centre, int radius_px, ImageBuffer& mask) 
   const ImageView view = mask.view();
   if (!(view.border_distance_px(centre.x(), centre.y()) >= -1.0f - static_cast<float>(radius_px))) return;
   // In double: neither the radius nor the place of a far centre need fit into an int once they are added.
-  const double radius = radius_px, u0 = std::round(double{centre.x()}), v0 = std::round(double{centre.y()});
+  const double radius = radius_px;
+  const double u0 = std::round(static_cast<double>(centre.x())), v0 = std::round(static_cast<double>(centre.y()));
   const int first = static_cast<int>(std::max(v0 - radius, 0.0));
   const int last = static_cast<int>(std::min(v0 + radius, view.height - 1.0));
   for (int v = first; v <= last; ++v) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/sightings.hpp"
+#include "stillpoint/core/past_observations.hpp"
 #include "stillpoint/core/span.hpp"
 
 namespace stillpoint {
@@ -20,10 +20,10 @@ enum class MatchState : std::uint8_t {
   matched,
   lost,       ///< in view, but not found
   near_edge,  ///< found, but too near to the image border to be trusted for ego-motion
-  outside,    ///< its key point is outside the image or not finite
+  outside,    ///< its keypoint is outside the image or not finite
 };
 
-/// The features as one frame sees them. Parallel arrays, one entry a feature.
+/// The features as one frame sees them. Parallel arrays, one entry per feature.
 struct FrameFeatures {
   std::vector<Vector2f> pixel;        ///< in the image as it is (distorted), pixels
   std::vector<Vector2d> undistorted;  ///< pixels of the ideal pinhole
@@ -65,7 +65,7 @@ float pixel_scale(const Camera& camera) noexcept {
   return static_cast<float>(camera.fx() / kFocal_px);
 }
 
-/// All features of a frame. The first `host_count` are the host's key points in their order; a matcher may append
+/// All features of a frame. The first `host_count` are the host's keypoints in their order; a matcher may append
 /// corners of its own behind them, which take part in every stage and in no result.
 struct Matches {
   std::size_t host_count = 0;
@@ -80,7 +80,7 @@ struct Matches {
   std::vector<Vector2f> predicted;      ///< where it was in the reference image if it stands still, roughly; pixels
   std::vector<std::uint8_t> was_there;  ///< views of seconds ago that saw a surface in its place
   std::vector<float> space_trust;       ///< 0 to 1: less for what came where older views saw through
-  Sightings sightings;                  ///< in older frames, for a matcher that looks back
+  PastObservations past_observations;   ///< in older frames, for a matcher that looks back
 
   std::size_t size() const noexcept { return state.size(); }
 
@@ -94,7 +94,7 @@ struct Matches {
   /// Matched, with depth at both ends: it has a 3D point in both frames.
   bool metric(std::size_t i) const noexcept { return matched(i) && current.has_depth(i) && reference.has_depth(i); }
 
-  /// Makes room for the host's key points and forgets everything else.
+  /// Makes room for the host's keypoints and forgets everything else.
   void begin(span<const Vector2f> pixels) {
     host_count = pixels.size();
     host_supports = false;
@@ -104,7 +104,7 @@ struct Matches {
     predicted.clear();
     was_there.clear();
     space_trust.clear();
-    sightings.clear();
+    past_observations.clear();
     resize(host_count);
     for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = predicted[i] = pixels[i];
   }

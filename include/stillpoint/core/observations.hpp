@@ -25,9 +25,9 @@ struct Remembered {
   void begin(const Matches& matches) {
     trust = matches.space_trust;
     log_odds.assign(matches.size(), 0.0f);
-    surface_trust.resize(matches.sightings.surfaces.size());
-    std::transform(matches.sightings.surfaces.begin(), matches.sightings.surfaces.end(), surface_trust.begin(),
-                   [](const SurfaceCell& cell) { return cell.space_trust; });
+    surface_trust.resize(matches.past_observations.surfaces.size());
+    std::transform(matches.past_observations.surfaces.begin(), matches.past_observations.surfaces.end(),
+                   surface_trust.begin(), [](const SurfaceCell& cell) { return cell.space_trust; });
   }
 };
 
@@ -43,7 +43,7 @@ struct Observations {
 
 /// How badly each feature disagrees with the camera's motion, and from where on that is more than noise.
 struct Evidence {
-  span<const FeatureScore> scores;  ///< by the scorer, one a feature
+  span<const FeatureScore> scores;  ///< by the scorer, one per feature
   Threshold threshold;              ///< by the gate
 };
 

@@ -21,6 +21,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// What a number may be, both ends included: a stage neither fails nor takes minutes within.

@@ -49,7 +49,8 @@ class Random {
     const std::uint64_t incomplete = (0 - wide_bound) % wide_bound;
     std::uint64_t draw = bits();
     while (draw < incomplete) draw = bits();
-    return static_cast<std::size_t>(draw % wide_bound);
+    const std::size_t drawn = draw % wide_bound;  // below `bound`: it fits
+    return drawn;
   }
 
   /// Uniform in [0, 1), 53 random bits.

@@ -16,7 +16,7 @@
 
 namespace stillpoint {
 
-/// What is known of a thing's class (the paper, 3.2: static, dynamic, "potential dynamic").
+/// What is known of a object's class (the paper, 3.2: static, dynamic, "potential dynamic").
 enum class Mobility : std::uint8_t {
   unknown,
   fixed,    ///< wall, television, table: the paper's "static"
@@ -50,10 +50,10 @@ struct Box {
   }
 };
 
-/// What of a box is the thing itself: a raster stretched over the box, so that it moves and grows with it.
+/// What of a box is the object itself: a raster stretched over the box, so that it moves and grows with it.
 struct BoxMask {
   int columns = 0, rows = 0;
-  std::vector<std::uint8_t> inside;  ///< row by row, 0 is not the thing
+  std::vector<std::uint8_t> inside;  ///< row by row, 0 is not the object
 
   /// @param x, y  share of the box's width and height, 0 to 1; beyond, the cells at the border count on
   bool at(float x, float y) const noexcept {
@@ -73,14 +73,15 @@ struct Detection {
   Box box;
   Mobility mobility = Mobility::unknown;
   float confidence = 1.0f;  ///< 0 to 1
-  double nearest_m = 0.0;   ///< depth of the thing itself: what is nearer or farther in its box is something else …
+  double nearest_m = 0.0;   ///< depth of the object itself: what is nearer or farther in its box is something else …
   double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres, half way down the box
-  double depth_slope_m = 0.0;  ///< a thing that leans, or is looked down on: so much farther from the top to the bottom
+  double depth_slope_m =
+      0.0;  ///< a object that leans, or is looked down on: so much farther from the top to the bottom
   std::shared_ptr<const BoxMask> mask =
       nullptr;                    ///< none: all of the box; shared, so that a detection can be copied freely
   std::int16_t class_index = -1;  ///< in the detector's list of classes, for overlays; -1: not known
 
-  /// Features without a depth (0) are taken to be of the thing.
+  /// Features without a depth (0) are taken to be of the object.
   bool holds(const Vector2f& pixel, double depth_m) const noexcept {
     return box.contains(pixel) && (!(depth_m > 0.0) || reaches(depth_m, (pixel.y() - box.y) / box.height)) &&
            (!mask || mask->at((pixel.x() - box.x) / box.width, (pixel.y() - box.y) / box.height));
@@ -109,7 +110,7 @@ struct Membership {
 /// The prior's answer for one frame.
 struct Regions {
   std::vector<Detection> detections;
-  std::vector<Membership> of_feature;  ///< one entry a feature, filled by `locate`
+  std::vector<Membership> of_feature;  ///< one entry per feature, filled by `locate`
 
   /// Finds the regions of each feature. O(features × regions).
   /// @param depth_m  of each feature, 0 none; or none of them at all

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// How badly a feature disagrees with the camera's motion.
 struct FeatureScore {
   float value = std::numeric_limits<float>::quiet_NaN();  ///< grows with disagreement; NaN: could not be scored
-  /// Probability that a standing point scores this or worse; NaN where the scorer makes no such claim.
-  float tail_probability = std::numeric_limits<float>::quiet_NaN();
 
   bool scored() const noexcept { return value == value; }
 };
@@ -41,7 +41,7 @@ enum class Reason : std::uint8_t {
   remembered,       ///< earlier frames decided
   no_match,         ///< not found in the reference frame
   no_depth,         ///< no depth here or in the reference frame
-  outside_image,    ///< its key point is outside the image or not finite
+  outside_image,    ///< its keypoint is outside the image or not finite
   keep_floor,       ///< dynamic, but kept, because too few would be left
 };
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// Every status but `ok` means: this frame was not judged, all features are kept (fail open).

@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 enum class Stage : std::uint8_t { prior, match, motion, score, gate, classify, memory, verdict };

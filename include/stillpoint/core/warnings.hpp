@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// No warning changes a verdict. The first three tell what the filter did, the others that it may be used wrongly: they
@@ -15,7 +17,7 @@ enum class Warning : std::uint8_t {
   rotation_only,             ///< the camera turned without moving (or stood still); motion has no direction
   consensus_inverted,        ///< another rigid motion explains more; the one that agrees with the past was taken
   keep_floor,                ///< so much was dynamic that the keep-floor acted
-  depth_turned_over,         ///< its jumps fit the picture better when it is mirrored or upside down
+  depth_turned_over,         ///< its jumps fit the image better when it is mirrored or upside down
   depth_too_near,            ///< hardly a depth beyond 1 m
   motion_too_fast,           ///< metres from frame to frame
   scale_differs,             ///< the host moves more than twice or less than half as far

@@ -11,9 +11,9 @@
 #include "stillpoint/detectors/class_list.hpp"
 #include "stillpoint/detectors/decode_yolo_raw.hpp"
 #include "stillpoint/detectors/layout.hpp"
+#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/detectors/preprocess.hpp"
 #include "stillpoint/detectors/raw_detection.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
 
 namespace stillpoint {
 

@@ -11,11 +11,11 @@
 #include <limits>
 #include <vector>
 
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 
 namespace stillpoint {
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
@@ -21,6 +22,8 @@ namespace stillpoint {
 /// mover that no box covers, and nothing disagrees too little.
 class MeanGate {
  public:
+  using Provides = Capabilities<>;
+
   struct Options {
     double outlier_sigmas = 3.0;
   };

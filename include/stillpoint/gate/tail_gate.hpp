@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
@@ -19,7 +20,7 @@ namespace stillpoint {
 
 /// The scores of standing points have an exponential tail: the share that the filter drops, P, falls by e with every
 /// `kDecay` nats, P(level) = exp(−(level − s₁) / decay) / 100. Measured with the whole filter, clusters and memory
-/// included, on a real recording without a mover (143 frames, 1000 key points): 1.2 % at 1.7, 0.9 % at 2.0, 0.6 % at
+/// included, on a real recording without a mover (143 frames, 1000 keypoints): 1.2 % at 1.7, 0.9 % at 2.0, 0.6 % at
 /// 2.3, 0.35 % at 2.8, 0.13 % at 3.3. The default s₁ keeps a margin of a third.
 ///
 /// That is the prior. A room that shines more, a camera with a worse depth have a longer tail, which is learned from
@@ -28,6 +29,9 @@ namespace stillpoint {
 /// while is no proof that nothing will be. What starts to move adds to the count for a few frames; a step is bounded.
 class TailGate {
  public:
+  using Needs = Capabilities<capability::log_likelihoods>;
+  using Provides = Capabilities<capability::tail_threshold>;
+
   struct Options {
     double false_positive_rate = 0.01;  ///< share of standing features that may be dropped, 1e-6 to 0.5
   };

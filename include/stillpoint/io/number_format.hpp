@@ -11,6 +11,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// A number with a fixed count of decimals ("-0.500000"). NaN and infinity become "nan" and "inf".

@@ -13,6 +13,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint::detail {
 
 /// Big-endian or little-endian whole numbers from a file, which becomes false at its end.

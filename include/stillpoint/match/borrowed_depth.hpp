@@ -6,10 +6,10 @@
 
 #include <cmath>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 
 namespace stillpoint {
 

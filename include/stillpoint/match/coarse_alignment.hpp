@@ -13,11 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/match/blurred_image.hpp"
 #include "stillpoint/match/pyramid.hpp"
 #include "stillpoint/match/static_weights.hpp"
@@ -183,7 +184,7 @@ class CoarseAlignment {
     Step step;
     step.cost = cost_at(pose, image, camera, add);
     const Matrix6d held = sums.topRows<6>().cast<double>() + kHold * Matrix6d::Identity();
-    step.increment = -held.ldlt().solve(Vector6d(sums.row(6).transpose().cast<double>()));
+    step.increment = -Cholesky<6>(held).solve(Vector6d(sums.row(6).transpose().cast<double>()));
     return step;
   }
 

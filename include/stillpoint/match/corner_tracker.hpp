@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/depth_tolerance.hpp"
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/match/coarse_alignment.hpp"
 #include "stillpoint/match/grid_corners.hpp"
 #include "stillpoint/match/patch.hpp"
@@ -28,6 +29,9 @@ namespace stillpoint {
 /// points are not followed: they are looked for later, where the camera's motion puts them.
 class CornerTracker {
  public:
+  using Needs = Capabilities<capability::metric_depth>;
+  using Provides = Capabilities<capability::matches>;
+
   struct Options {
     int cell_px = 24;              ///< one corner for each cell of this size: 530 cells in 640 × 480
     float most_dissimilar = 0.3f;  ///< 1 − correlation above which a corner is lost
@@ -47,7 +51,8 @@ class CornerTracker {
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       const Vector2f at = to_depth(corners_[c]);
       const int u = rounded(at.x()), v = rounded(at.y());
-      const double measured_m = current.depth.image.contains(u, v) ? double{current.depth.metres(u, v)} : 0.0;
+      const double measured_m =
+          current.depth.image.contains(u, v) ? static_cast<double>(current.depth.metres(u, v)) : 0.0;
       const double depth_m = measured_m > 0 && std::isfinite(measured_m) ? measured_m : coarse_.typical_depth_m();
       const Vector3d point = camera.back_project(camera.undistort(corners_[c].template cast<double>()), depth_m);
       const auto displacement = [&](const Pose& reference_from_current) {

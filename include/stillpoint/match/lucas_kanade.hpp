@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
@@ -21,10 +22,13 @@
 
 namespace stillpoint {
 
-/// The paper's matching (3.3): Lucas-Kanade from the current frame's key points to the last frame gives S_L, S_C.
+/// The paper's matching (3.3): Lucas-Kanade from the current frame's keypoints to the last frame gives S_L, S_C.
 /// Source: Lucas and Kanade, "An Iterative Image Registration Technique", IJCAI 1981; pyramids after Bouguet, 2001.
 class LucasKanade {
  public:
+  using Needs = Capabilities<>;
+  using Provides = Capabilities<capability::matches, capability::feature_matches>;
+
   struct Options {
     int window_px = 21;                ///< side of the window (OpenCV's default; the paper names none)
     int pyramid_levels = 3;            ///< levels above the image itself (OpenCV's default)
@@ -76,7 +80,7 @@ class LucasKanade {
                              stop);
   }
 
-  /// Key points outside the image or not finite are never handed to OpenCV.
+  /// Keypoints outside the image or not finite are never handed to OpenCV.
   void gather(const FrameView& current, Matches& matches) {
     from_.clear();
     feature_.clear();

@@ -12,12 +12,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/match/surface_search.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
 
 namespace stillpoint {
 
@@ -29,14 +29,14 @@ struct OlderFrameChoice {
   double pixel_sigma = 0.7;   ///< of a found place, pixels
   double longest_s = 0.5;     ///< but no frame is older than this, unless frames are few
 
-  /// Fills `matches.sightings` with frames in which nothing is looked for yet.
+  /// Fills `matches.past_observations` with frames in which nothing is looked for yet.
   template <class Camera>
   void choose(const FrameHistory& history, const FrameView& current, const Camera& camera, Matches& matches,
               Workspace& workspace) const {
-    matches.sightings.clear();
+    matches.past_observations.clear();
     for (const std::size_t age : ages(history, current, camera, matches, workspace)) {
       if (age == 0) continue;
-      OlderFrame& older = matches.sightings.add(matches.size());
+      OlderFrame& older = matches.past_observations.add(matches.size());
       older.age = age;
       older.elapsed_s = current.timestamp_s - history.back(age).timestamp_s;
     }
@@ -89,7 +89,7 @@ void predict_places(const Pose& reference_from_current, const Camera& camera, Ma
   };
   for (std::size_t i = 0; i < matches.host_count; ++i)
     if (matches.current.has_depth(i)) project(matches.current.point[i], matches.predicted[i]);
-  for (SurfaceCell& cell : matches.sightings.surfaces) {
+  for (SurfaceCell& cell : matches.past_observations.surfaces) {
     cell.predicted = cell.pixel;
     project(cell.point, cell.predicted);
   }
@@ -98,14 +98,14 @@ void predict_places(const Pose& reference_from_current, const Camera& camera, Ma
 /// Before the motion is known: chooses the older frames, and finds the surfaces in the last one.
 /// @param filter_from_expected  where the camera is expected now
 template <class Camera, class Noise>
-void survey_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& surfaces, const FrameHistory& history,
+void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& surfaces, const FrameHistory& history,
                          const FrameView& current, const Pose& filter_from_expected, const Camera& camera,
                          const Noise& noise, Matches& matches, Workspace& workspace) {
   choice.choose(history, current, camera, matches, workspace);
-  surfaces.collect(current, camera, noise, matches.sightings.surfaces);
-  const span<OlderFrame> frames = matches.sightings.frames();
+  surfaces.collect(current, camera, noise, matches.past_observations.surfaces);
+  const span<OlderFrame> frames = matches.past_observations.frames();
   if (frames.empty()) return;
-  look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.sightings.surfaces,
+  look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.past_observations.surfaces,
                     frames.first(1));
   predict_places(frames[0].reference_from_current, camera, matches);
 }
@@ -114,18 +114,19 @@ void survey_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& su
 inline bool clearly_stands(std::size_t i, span<const OlderFrame> frames) noexcept {
   constexpr float kAlike = 0.12f, kThere_px = 0.7f;
   const auto agrees = [i](const OlderFrame& older) {
-    const Sighting& sighting = older.of_feature[i];
-    return sighting.state == SightingState::seen && sighting.dissimilarity < kAlike && sighting.offset_px < kThere_px;
+    const Observation& observation = older.of_feature[i];
+    return observation.state == ObservationState::seen && observation.dissimilarity < kAlike &&
+           observation.offset_px < kThere_px;
   };
   return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
 }
 
-/// Calls `bool look_at(frame)`, which fills the sighting of feature `i` and says whether to go on, for the last frame,
-/// then for the oldest, then for those between, unless it clearly stands.
+/// Calls `bool look_at(frame)`, which fills the observation of feature `i` and says whether to go on, for the last
+/// frame, then for the oldest, then for those between, unless it clearly stands.
 /// @param in_all  in those between in any case
 template <class LookAt>
 void look_in_older_frames(std::size_t i, span<OlderFrame> frames, bool in_all, const LookAt& look_at) {
-  for (OlderFrame& older : frames) older.of_feature[i] = Sighting{};
+  for (OlderFrame& older : frames) older.of_feature[i] = Observation{};
   if (frames.empty() || !look_at(frames[0])) return;
   for (std::size_t f = frames.size(); f-- > 1;) {
     const bool is_needed = f + 1 == frames.size() || in_all || !clearly_stands(i, frames);

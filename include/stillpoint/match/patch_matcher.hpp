@@ -4,16 +4,20 @@
 
 // The matcher of `DefaultPolicies`.
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/match/corner_tracker.hpp"
-#include "stillpoint/match/look_back.hpp"
+#include "stillpoint/match/past_reprojection.hpp"
 
 namespace stillpoint {
 
 /// Support corners one frame back for the ego-motion; then, when the motion is known, every feature in older frames.
 struct PatchMatcher {
-  CornerTracker corners;  ///< its settings are `corners.options`
-  LookBack older;         ///< and `older.options`
+  using Needs = Capabilities<capability::metric_depth>;
+  using Provides = Capabilities<capability::matches, capability::past_observations>;
+
+  CornerTracker corners;   ///< its settings are `corners.options`
+  PastReprojection older;  ///< and `older.options`
 
   /// Before `match`: a rough motion, from which it begins.
   /// @return reference_from_current
@@ -27,18 +31,18 @@ struct PatchMatcher {
     corners.match(reference, current, matches);
   }
 
-  /// Fills `matches.sightings` with frames and surfaces.
+  /// Fills `matches.past_observations` with frames and surfaces.
   template <class Camera, class Noise>
-  void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
-              const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
-    older.survey(history, current, filter_from_expected, camera, noise, matches, workspace);
+  void choose_keyframes(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
+                        const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
+    older.choose_keyframes(history, current, filter_from_expected, camera, noise, matches, workspace);
   }
 
   /// And with what became of every feature.
   template <class Camera, class Noise>
-  void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Observations& observations) const {
-    older.look_back(history, current, filter_from_current, camera, noise, observations);
+  void reproject_into_past(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
+                           const Camera& camera, const Noise& noise, Observations& observations) const {
+    older.reproject_into_past(history, current, filter_from_current, camera, noise, observations);
   }
 
   void learn(const Observations& observations, span<const Label> labels) { corners.learn(observations, labels); }

@@ -3,7 +3,7 @@
 #pragma once
 
 // A host that tracks its features itself hands its matches over and pays for no matching.   Tracks → matches with the
-// last frame; chained, sightings in older ones
+// last frame; chained, past_observations in older ones
 
 #include <algorithm>
 #include <cstddef>
@@ -11,12 +11,12 @@
 #include <limits>
 #include <vector>
 
-#include "stillpoint/core/depth_tolerance.hpp"
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/frame_history.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
 #include "stillpoint/match/space_search.hpp"
@@ -24,10 +24,11 @@
 #include "stillpoint/match/surface_search.hpp"
 #include "stillpoint/match/surrounding_depth.hpp"
 #include "stillpoint/match/track_history.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
 
 namespace stillpoint {
 
-/// Takes the host's own tracks. Before each `filter_frame`, set `reference_pixels`: one entry for each key point, in
+/// Takes the host's own tracks. Before each `filter_frame`, set `reference_pixels`: one entry for each keypoint, in
 /// their order: where it was in the last frame that was filtered (distorted pixels), NaN where it was not seen.
 /// They are used once and cleared. A list of another length means that the host gave no matches for this frame: every
 /// feature is lost.
@@ -37,6 +38,9 @@ namespace stillpoint {
 /// silhouettes. A set with a history of one frame gets the matches alone.
 class ProvidedMatches {
  public:
+  using Needs = Capabilities<>;
+  using Provides = Capabilities<capability::matches, capability::feature_matches, capability::past_observations>;
+
   struct Options {
     float border_px = 10.0f;      ///< nearer to either image's border a feature stays out of ego-motion; 0: none
     float same_point_px = 1.0f;   ///< a track goes on at a feature of the last frame within this
@@ -73,12 +77,12 @@ class ProvidedMatches {
   /// Chains the tracks, chooses the older frames, and finds the surfaces in the last one.
   /// @param filter_from_expected  where the camera is expected now
   template <class Camera, class Noise>
-  void survey(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
-              const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) {
+  void choose_keyframes(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
+                        const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) {
     if (history.capacity() < 2) return;
     matches.host_supports = true;
     tracks_.push(matches, history.capacity(), options.same_point_px, workspace);
-    survey_older_frames(older, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
+    choose_older_frames(older, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
     find_tracks_beside_occluders(current, camera, noise, matches);
     space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
                              surfaces.scaled_step_px(camera), matches, workspace);
@@ -86,12 +90,12 @@ class ProvidedMatches {
 
   /// Looks for the surfaces once more, and says where the features were.
   template <class Camera, class Noise>
-  void look_back(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
-                 const Camera& camera, const Noise& noise, Observations& observations) const {
+  void reproject_into_past(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
+                           const Camera& camera, const Noise& noise, Observations& observations) const {
     Matches& matches = observations.matches;
-    look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.sightings.surfaces,
-                      matches.sightings.frames());
-    for (std::size_t i = 0; i < matches.host_count && !matches.sightings.frames().empty(); ++i) {
+    look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
+                      matches.past_observations.frames());
+    for (std::size_t i = 0; i < matches.host_count && !matches.past_observations.frames().empty(); ++i) {
       if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
         look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), history, current, camera, noise,
@@ -168,44 +172,45 @@ class ProvidedMatches {
   float look(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
              const FrameView& current, const Camera& camera, const Noise& noise, Observations& observations) const {
     Matches& matches = observations.matches;
-    Sightings& sightings = matches.sightings;
-    sightings.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
-    sightings.inverse_depth_sigma[i] = inverse_depth_sigma;
+    PastObservations& past_observations = matches.past_observations;
+    past_observations.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
+    past_observations.inverse_depth_sigma[i] = inverse_depth_sigma;
     FeaturePatch patch{matches.current.pixel[i], depth_m, DepthTolerance().at(noise.sigma(depth_m))};
     float sum_px = 0;
     const auto look_at = [&](OlderFrame& frame) {
       const FrameView past = history.back(frame.age).view();
-      const StaticPlace place = places.look(past, frame.reference_from_current, sightings.point[i],
+      const StaticPlace place = places.look(past, frame.reference_from_current, past_observations.point[i],
                                             inverse_depth_sigma * depth_m * depth_m, camera, noise);
-      Sighting& sighting = frame.of_feature[i];
-      sighting = place.sighting;
-      if (!matches.current.has_depth(i)) sighting.depth_m = 0;  // a supposed depth agrees with nothing
-      if (!place.in_view || sighting.state == SightingState::occluded) return true;
+      Observation& observation = frame.of_feature[i];
+      observation = place.observation;
+      if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
+      if (!place.in_view || observation.state == ObservationState::occluded) return true;
       if (is_beside_[i] != 0 || frame.age > tracks_.length(i)) return true;
-      sighting.state = SightingState::seen;
-      sighting.dissimilarity = kDissimilarity;
-      sighting.found = tracks_.pixel(i, frame.age);
-      sighting.offset_px = (sighting.found - camera.project(place.point).template cast<float>()).norm();
-      sum_px += sighting.offset_px;
-      if (sighting.offset_px > options.objection_px && !(observations.remembered.log_odds[i] > options.known_log_odds))
-        examine(patch, current, past, place, camera, sighting);
+      observation.state = ObservationState::seen;
+      observation.dissimilarity = kDissimilarity;
+      observation.found = tracks_.pixel(i, frame.age);
+      observation.offset_px = (observation.found - camera.project(place.point).template cast<float>()).norm();
+      sum_px += observation.offset_px;
+      if (observation.offset_px > options.objection_px &&
+          !(observations.remembered.log_odds[i] > options.known_log_odds))
+        examine(patch, current, past, place, camera, observation);
       return true;
     };
-    look_in_older_frames(i, sightings.frames(), false, look_at);
+    look_in_older_frames(i, past_observations.frames(), false, look_at);
     return sum_px;
   }
 
   /// A track objects: what does its patch say? It has the last word where it can be compared.
   template <class Camera>
   static void examine(FeaturePatch& feature, const FrameView& current, const FrameView& past, const StaticPlace& place,
-                      const Camera& camera, Sighting& sighting) {
+                      const Camera& camera, Observation& observation) {
     if (!feature.cut(current)) return;
     const Vector2f beside = rounded(feature.pixel) - feature.pixel;
     const PatchFit fit = find_patch(feature.patch, past.gray, place.pixel + beside, PatchSearch{3, 0.2f});
     if (!fit.inside || !(fit.contrast > kLeastContrast)) return;
-    sighting.dissimilarity = fit.dissimilarity;
-    sighting.offset_px = fit.offset.norm();
-    sighting.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
+    observation.dissimilarity = fit.dissimilarity;
+    observation.offset_px = fit.offset.norm();
+    observation.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
   }
 
   TrackHistory tracks_;

@@ -13,10 +13,10 @@
 #include <cstdint>
 
 #include "stillpoint/core/matches.hpp"
-#include "stillpoint/core/space_history.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/match/surface_neighbours.hpp"
+#include "stillpoint/pipeline/space_history.hpp"
 
 namespace stillpoint {
 
@@ -24,16 +24,16 @@ namespace stillpoint {
 /// to 79 % of those that move.
 class SpaceSearch {
  public:
-  /// Counts in `sightings.seen_through` the views that saw something farther where each feature is now.
+  /// Counts in `past_observations.seen_through` the views that saw something farther where each feature is now.
   /// @param filter_from_current  where the camera is now
   template <class Camera, class Noise>
   void count_views_through(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_current,
                            const Camera& camera, const Noise& noise, Matches& matches) const {
-    if (matches.sightings.frames().empty()) return;  // nothing was looked for
+    if (matches.past_observations.frames().empty()) return;  // nothing was looked for
     for_each_view(history, timestamp_s, filter_from_current, camera, noise, [&](double, const auto& look) {
       for (std::size_t i = 0; i < matches.size(); ++i)
-        if (!matches.sightings.is_guess(i) && look(matches.sightings.point[i]) == Space::free)
-          ++matches.sightings.seen_through[i];
+        if (!matches.past_observations.is_guess(i) && look(matches.past_observations.point[i]) == Space::free)
+          ++matches.past_observations.seen_through[i];
     });
   }
 
@@ -45,7 +45,7 @@ class SpaceSearch {
   void distrust_what_came(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_expected,
                           const Camera& camera, const Noise& noise, int step_px, Matches& matches,
                           Workspace& workspace) const {
-    const span<SurfaceCell> cells = matches.sightings.surfaces;
+    const span<SurfaceCell> cells = matches.past_observations.surfaces;
     for_each_view(history, timestamp_s, filter_from_expected, camera, noise, [&](double elapsed_s, const auto& look) {
       std::size_t through = 0, there = 0;
       for (SurfaceCell& cell : cells) {
@@ -81,7 +81,7 @@ class SpaceSearch {
 
   /// A cell that no view knows takes the majority's side of those that adjoin it, round by round.
   static void spread_distrust(float step_px, double focal_px, Matches& matches, Workspace& workspace) {
-    const span<SurfaceCell> cells = matches.sightings.surfaces;
+    const span<SurfaceCell> cells = matches.past_observations.surfaces;
     if (cells.empty()) return;
     const Workspace::Scope scope(workspace);
     const SurfaceNeighbours neighbours(cells, step_px, focal_px, workspace);

@@ -10,13 +10,13 @@
 #include <cstdint>
 #include <limits>
 
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
-#include "stillpoint/core/sightings.hpp"
+#include "stillpoint/core/past_observations.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/surface_search.hpp"
 
 namespace stillpoint {
@@ -27,7 +27,7 @@ struct StaticPlace {
   Vector2f pixel = Vector2f::Zero();  ///< in the image as it is
   double nearer_than_m = 0;           ///< what is nearer hides the point
   bool in_view = false;               ///< in front of the camera and inside the image
-  Sighting sighting;                  ///< state and depth; nothing is found yet
+  Observation observation;            ///< state and depth; nothing is found yet
 };
 
 /// Looks at static places.
@@ -54,9 +54,9 @@ struct PlaceTest {
     place.nearer_than_m = place.point.z() - margin_m;
     const double measured_m = guard.at(past, place.pixel, noise);
     if (!(measured_m > 0)) return place;
-    place.sighting.depth_m = static_cast<float>(measured_m);
-    place.sighting.depth_sigma_m = static_cast<float>(noise.sigma(measured_m));
-    place.sighting.state = measured_m < place.nearer_than_m ? SightingState::occluded : SightingState::seen;
+    place.observation.depth_m = static_cast<float>(measured_m);
+    place.observation.depth_sigma_m = static_cast<float>(noise.sigma(measured_m));
+    place.observation.state = measured_m < place.nearer_than_m ? ObservationState::occluded : ObservationState::seen;
     return place;
   }
 };

@@ -26,7 +26,7 @@ class StaticWeights {
     sum_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
     for (std::size_t i = 0; i < matches.size(); ++i)
       add(matches.current.pixel[i], labels[i].keep ? remembered.trust[i] : 0.0f, 1.0f);
-    const span<const SurfaceCell> cells = matches.sightings.surfaces;
+    const span<const SurfaceCell> cells = matches.past_observations.surfaces;
     for (std::size_t s = 0; s < cells.size(); ++s) add(cells[s].pixel, remembered.surface_trust[s], kSurfaceVote);
   }
 

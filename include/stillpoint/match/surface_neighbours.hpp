@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "stillpoint/core/sightings.hpp"
+#include "stillpoint/core/past_observations.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 

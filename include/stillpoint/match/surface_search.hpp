@@ -9,12 +9,12 @@
 #include <cmath>
 #include <vector>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/frame.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
-#include "stillpoint/core/sightings.hpp"
+#include "stillpoint/core/past_observations.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/patch.hpp"
 
 namespace stillpoint {
@@ -61,8 +61,8 @@ struct SurfaceSearch {
 
   /// The surface that an older frame shows where a standing cell would have been.
   template <class Camera, class Noise>
-  SurfaceSighting look(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
-                       const Camera& camera, const Noise& noise) const {
+  SurfaceObservation look(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
+                          const Camera& camera, const Noise& noise) const {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
     const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>().array().round();

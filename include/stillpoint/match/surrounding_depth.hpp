@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <limits>
 
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 
 namespace stillpoint {
 

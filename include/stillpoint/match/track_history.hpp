@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 
 namespace stillpoint {
 

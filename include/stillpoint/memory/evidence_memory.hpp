@@ -9,13 +9,14 @@
 #include <cstddef>
 #include <vector>
 
-#include "stillpoint/core/depth_tolerance.hpp"
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/memory/neighbour_steps.hpp"
 #include "stillpoint/memory/remembered_points.hpp"
 
@@ -25,9 +26,11 @@ namespace stillpoint {
 /// neighbours on the same surface are suspect by majority, and only lowers the say in the ego-motion: what moved once
 /// and stands still now will drag the pose when it starts again. Surface cells hand it on too, where there is no
 /// corner: a sleeve that comes into view belongs to the man whose collar was seen moving. If suspicion drove verdicts,
-/// false alarms would spread from surface to surface.
+/// false positives would spread from surface to surface.
 class EvidenceMemory {
  public:
+  using Needs = Capabilities<capability::log_odds>;
+
   struct Options {
     double log_odds_decay_s = 0.0935;  ///< time in which log-odds fall by e
     double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
@@ -42,7 +45,7 @@ class EvidenceMemory {
   /// Looks every feature and surface cell up in what is remembered, and says what trust and log-odds they have.
   void recall(const Matches& matches, Remembered& remembered, Workspace& workspace) {
     recalled_.assign(matches.size(), Memory{});
-    recalled_of_cell_.assign(matches.sightings.surfaces.size(), Memory{});
+    recalled_of_cell_.assign(matches.past_observations.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;
@@ -62,7 +65,7 @@ class EvidenceMemory {
       remembered.log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
-      const SurfaceCell& cell = matches.sightings.surfaces[s];
+      const SurfaceCell& cell = matches.past_observations.surfaces[s];
       const double depth_m = cell.point.z(), tolerance_m = kSameSurface.at(cell.depth_sigma_m);
       recalled_of_cell_[s] =
           look_up(points, steps.before(cell.pixel, depth_m, tolerance_m, cell.predicted), depth_m, tolerance_m);
@@ -92,7 +95,7 @@ class EvidenceMemory {
       remember(matches.current.pixel[i], matches.current.depth_m[i], {label.log_odds, suspicion}, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
-      const SurfaceCell& cell = matches.sightings.surfaces[s];
+      const SurfaceCell& cell = matches.past_observations.surfaces[s];
       remember(cell.pixel, cell.point.z(), recalled_of_cell_[s], false);
     }
   }

@@ -4,6 +4,7 @@
 
 // The paper remembers nothing: each frame is judged by itself.
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
@@ -14,6 +15,8 @@ namespace stillpoint {
 
 /// The null memory.
 struct NoMemory {
+  using Needs = Capabilities<capability::verdicts>;
+
   void update(const Observations&, const Motion&, const Evidence&, span<Label>, Workspace&) const noexcept {}
   void reset() noexcept {}
 };

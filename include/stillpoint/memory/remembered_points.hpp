@@ -4,8 +4,9 @@
 
 // What the last frame knew of a place: weighted means over the remembered points around it, four points at a time.
 
-#include <opencv2/core/hal/intrin.hpp>
+#include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 
 #include "stillpoint/core/geometry.hpp"
@@ -41,12 +42,12 @@ class RememberedPoints {
 
   RememberedPoints(span<const Vector2f> pixels, span<const RememberedPoint> points, const NeighbourWeights& weights,
                    Workspace& workspace)
-      // Cells of half the reach: fewer points are visited that lie beyond it.
       : weights_(weights),
-        grid_(pixels, 0.5f * weights.reach_px, workspace, [](std::size_t) { return true; }),
+        grid_(pixels, weights.reach_px / kCellsPerReach, workspace, [](std::size_t) { return true; }),
         x_(workspace.take<float>(padded())),
         y_(workspace.take<float>(padded())),
         depth_m_(workspace.take<float>(padded())),
+        has_depth_(workspace.take<float>(padded())),
         log_odds_(workspace.take<float>(padded())),
         suspicion_(workspace.take<float>(padded())),
         is_feature_(workspace.take<float>(padded())) {
@@ -55,6 +56,7 @@ class RememberedPoints {
       x_[rank] = point.pixel.x();
       y_[rank] = point.pixel.y();
       depth_m_[rank] = point.depth_m;
+      has_depth_[rank] = point.depth_m > 0 ? 1.0f : 0.0f;
       log_odds_[rank] = point.log_odds;
       suspicion_[rank] = point.suspicion;
       is_feature_[rank] = point.is_feature ? 1.0f : 0.0f;
@@ -64,46 +66,61 @@ class RememberedPoints {
   /// @param depth_m      0 none
   /// @param tolerance_m  by which depths on its surface may differ
   Sums around(const Vector2f& pixel, float depth_m, float tolerance_m) const {
-    using cv::v_float32x4;
-    const auto all = [](float value) { return cv::v_setall_f32(value); };
-    const v_float32x4 zero = all(0.0f), one = all(1.0f), x = all(pixel.x()), y = all(pixel.y()), depth = all(depth_m);
-    const v_float32x4 per_reach = all(1.0f / (weights_.reach_px * weights_.reach_px)),
-                      per_feature = all(1.0f / (weights_.feature_px * weights_.feature_px));
-    const v_float32x4 tolerance = all(tolerance_m);
+    using Four = Eigen::Array4f;
+    // Eigen compares and chooses one number at a time, but takes minima and maxima of four: what is true is 1, what is
+    // false 0, "and" is a minimum, "or" a maximum. A step from 1 to 0 is a ramp so steep that no float lies on it.
+    constexpr float kSteep = 1e30f;
+    const float per_reach = 1.0f / (weights_.reach_px * weights_.reach_px);
+    const float per_feature = 1.0f / (weights_.feature_px * weights_.feature_px);
     // One with a depth, one without: perhaps the same surface. In the vote they only count where there are no others.
-    const v_float32x4 other_kind = all(0.2f), vote_of_other_kind = all(0.02f);
-    const v_float32x4 has_depth = depth > zero, lane(0.0f, 1.0f, 2.0f, 3.0f);
-    v_float32x4 feature_weight = zero, log_odds = zero, votes = zero, suspicion = zero;
+    constexpr float kOtherKind = 0.2f, kVoteOfOtherKind = 0.02f;
+    const float has_depth = depth_m > 0 ? 1.0f : 0.0f;
+    const Four lane(0.0f, 1.0f, 2.0f, 3.0f);
+    Four feature_weight = Four::Zero(), log_odds = Four::Zero(), votes = Four::Zero(), suspicion = Four::Zero();
+    // Runs first, sums later: compilers do not inline a visitor of this size, and then keep its sums in memory.
+    std::array<Run, kMostRuns> runs;
+    std::size_t count = 0;
     grid_.runs_around(pixel, weights_.reach_px, [&](std::size_t first, std::size_t last) {
-      for (std::size_t rank = first; rank < last; rank += 4) {
-        const v_float32x4 taken = lane < all(static_cast<float>(last - rank));
-        const v_float32x4 off_x = cv::v_load(&x_[rank]) - x, off_y = cv::v_load(&y_[rank]) - y;
-        const v_float32x4 squared = off_x * off_x + off_y * off_y;
-        const v_float32x4 their_depth = cv::v_load(&depth_m_[rank]);
-        const v_float32x4 other = has_depth ^ (their_depth > zero);
-        const v_float32x4 one_surface = cv::v_absdiff(depth, their_depth) <= tolerance;
-        const v_float32x4 same = taken & (one_surface | other);
-        const v_float32x4 vote =
-            same & (cv::v_max(zero, one - squared * per_reach) * cv::v_select(other, vote_of_other_kind, one));
-        votes += vote;
-        suspicion += vote * cv::v_load(&suspicion_[rank]);
-        const v_float32x4 near = cv::v_max(zero, one - squared * per_feature);
-        const v_float32x4 weight =
-            same & (near * near * cv::v_load(&is_feature_[rank]) * cv::v_select(other, other_kind, one));
-        feature_weight += weight;
-        log_odds += weight * cv::v_load(&log_odds_[rank]);
-      }
+      if (first < last) runs[count++] = {first, last};
     });
-    return {cv::v_reduce_sum(feature_weight), cv::v_reduce_sum(log_odds), cv::v_reduce_sum(votes),
-            cv::v_reduce_sum(suspicion)};
+    for (std::size_t k = 0; k < count; ++k) {
+      const Run run = runs[k];
+      auto left = static_cast<float>(static_cast<int>(run.last - run.first));
+      for (std::size_t rank = run.first; rank < run.last; rank += 4, left -= 4.0f) {
+        const Four taken = (left - lane).max(0.0f).min(1.0f);
+        const Four off_x = four(x_, rank) - pixel.x(), off_y = four(y_, rank) - pixel.y();
+        const Four squared = off_x * off_x + off_y * off_y;
+        const Four other = (has_depth - four(has_depth_, rank)).abs(), alike = 1.0f - other;
+        const Four beyond = (depth_m - four(depth_m_, rank)).abs() - tolerance_m;
+        const Four same = (1.0f - beyond * kSteep).max(other).min(taken);
+        const Four vote = same * ((1.0f - squared * per_reach).max(0.0f) * alike.max(kVoteOfOtherKind));
+        votes += vote;
+        suspicion += vote * four(suspicion_, rank);
+        const Four near = (1.0f - squared * per_feature).max(0.0f);
+        const Four weight = same * (near * near * four(is_feature_, rank) * alike.max(kOtherKind));
+        feature_weight += weight;
+        log_odds += weight * four(log_odds_, rank);
+      }
+    }
+    return {feature_weight.sum(), log_odds.sum(), votes.sum(), suspicion.sum()};
   }
 
  private:
+  struct Run {
+    std::size_t first, last;
+  };
+  static constexpr float kCellsPerReach = 2;  // small cells: fewer points are visited that lie beyond it
+  // A circle touches 2 · 2 + 1 rows of cells, and one more by rounding.
+  static constexpr std::size_t kMostRuns = 2 * static_cast<std::size_t>(kCellsPerReach) + 2;
+
+  static Eigen::Map<const Eigen::Array4f> four(span<float> values, std::size_t first) {
+    return Eigen::Map<const Eigen::Array4f>(&values[first]);
+  }
   std::size_t padded() const noexcept { return grid_.size() + 3; }  // four are read from the last
 
   NeighbourWeights weights_;
   PixelGrid grid_;
-  span<float> x_, y_, depth_m_, log_odds_, suspicion_, is_feature_;  // by rank
+  span<float> x_, y_, depth_m_, has_depth_, log_odds_, suspicion_, is_feature_;  // by rank
 };
 
 }  // namespace stillpoint

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// Two doubles: a register of every 64-bit processor.

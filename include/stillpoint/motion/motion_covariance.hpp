@@ -9,8 +9,8 @@
 #include <cstddef>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
-#include "stillpoint/motion/small_linear_algebra.hpp"
 
 namespace stillpoint {
 

@@ -217,7 +217,7 @@ class RansacRun {
       std::size_t count = 0;
       for (std::size_t i = 0; i < size_ && count < inliers.size(); ++i) {
         inliers[count] = static_cast<std::uint32_t>(i);
-        count += ratio(model, i) <= width ? 1 : 0;
+        count += static_cast<std::size_t>(ratio(model, i) <= width);
       }
       if (count < Estimator::kSampleSize || !estimator_.refine(inliers.first(count), model)) return;
       const Score score = evaluate(model, false);

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint::detail {
 
 /// Wald's test, block by block: is a model no better than chance?

@@ -15,14 +15,14 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/atomic_file.hpp"
 #include "stillpoint/io/yaml_file.hpp"
 #include "stillpoint/options/replaced_options.hpp"
-#include "stillpoint/policies.hpp"
+#include "stillpoint/policies/default_policies.hpp"
 
 namespace stillpoint {
 

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string_view>
 
+#include "stillpoint/core/needs_cpp17.hpp"
+
 namespace stillpoint {
 
 /// An option that was once in files.

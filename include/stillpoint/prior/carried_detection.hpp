@@ -13,7 +13,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
-#include "stillpoint/prior/picture_motion.hpp"
+#include "stillpoint/prior/image_motion.hpp"
 
 namespace stillpoint {
 
@@ -25,7 +25,7 @@ inline float intersection_over_union(const Box& a, const Box& b) noexcept {
   return width * height / (a.width * a.height + b.width * b.height - width * height);
 }
 
-/// One thing that a detector has seen, where it is in the frame that came last. Each further frame first predicts
+/// One object that a detector has seen, where it is in the frame that came last. Each further frame first predicts
 /// (before its features are known), then corrects.
 class CarriedDetection {
  public:
@@ -35,40 +35,40 @@ class CarriedDetection {
 
   CarriedDetection(const Detection& seen, double timestamp_s) : detection(seen), seen_s(timestamp_s) {}
 
-  /// Its own speed in the image, beyond what the camera's motion gives a standing thing; pixels a second.
+  /// Its own speed in the image, beyond what the camera's motion gives a standing object; pixels a second.
   const Vector2f& own_velocity_px_s() const noexcept { return own_px_s_; }
 
   bool has_depth_range() const noexcept { return std::isfinite(detection.farthest_m); }
-  /// Of the thing's middle, metres; infinity where it is not known.
+  /// Of the object's middle, metres; infinity where it is not known.
   double depth_m() const noexcept { return 0.5 * (detection.nearest_m + detection.farthest_m); }
 
   /// Constant velocity in the image, for the time that has passed.
-  void predict(const PictureMotion& picture) {
+  void predict(const ImageMotion& image) {
     predicted_ = true;
-    step_ = image_px_s_ * static_cast<float>(picture.elapsed_s);
-    move(step_, 1.0f, picture);
+    step_ = image_px_s_ * static_cast<float>(image.elapsed_s);
+    move(step_, 1.0f, image);
   }
 
-  /// Puts the step right by the features on the thing; where these are too few, by the camera's motion and the thing's
-  /// own velocity. Where it was seen in this frame, learns its velocity and leaves it where it is.
-  /// @param fewest_features  below it their median is not taken for the thing's
-  void correct(const PictureMotion& picture, std::size_t fewest_features, Workspace& workspace) {
-    if (!(picture.elapsed_s > 0)) return;
-    const auto elapsed_s = static_cast<float>(picture.elapsed_s);
+  /// Puts the step right by the features on the object; where these are too few, by the camera's motion and the
+  /// object's own velocity. Where it was seen in this frame, learns its velocity and leaves it where it is.
+  /// @param fewest_features  below it their median is not taken for the object's
+  void correct(const ImageMotion& image, std::size_t fewest_features, Workspace& workspace) {
+    if (!(image.elapsed_s > 0)) return;
+    const auto elapsed_s = static_cast<float>(image.elapsed_s);
     const Vector2f from = centre() - (predicted_ ? step_ : Vector2f(image_px_s_ * elapsed_s));
     Vector2f standing = Vector2f::Zero();
-    if (picture.knows_camera()) standing = picture.standing_step(from, depth_m());
+    if (image.knows_camera()) standing = image.standing_step(from, depth_m());
     Step step{standing + own_px_s_ * elapsed_s, 1.0f};
-    if (const std::optional<Step> measured = step_of_features(picture, fewest_features, workspace)) {
+    if (const std::optional<Step> measured = step_of_features(image, fewest_features, workspace)) {
       step = *measured;
       const Vector2f own = (step.displacement - standing) / elapsed_s;
-      if (picture.knows_camera()) own_px_s_ = is_followed_ ? Vector2f(0.5f * (own_px_s_ + own)) : own;
+      if (image.knows_camera()) own_px_s_ = is_followed_ ? Vector2f(0.5f * (own_px_s_ + own)) : own;
       is_followed_ = true;
-    } else if (!picture.knows_camera()) {
+    } else if (!image.knows_camera()) {
       return;
     }
     image_px_s_ = step.displacement / elapsed_s;
-    if (predicted_) move(step.displacement - step_, step.scale, picture);
+    if (predicted_) move(step.displacement - step_, step.scale, image);
   }
 
   /// The detector has seen it again.
@@ -101,10 +101,10 @@ class CarriedDetection {
     return result;
   }
 
-  bool is_in(const PictureMotion& picture) const noexcept {
+  bool is_in(const ImageMotion& image) const noexcept {
     const Box& box = detection.box;
-    return box.x + box.width > 0 && box.y + box.height > 0 && box.x < static_cast<float>(picture.width) &&
-           box.y < static_cast<float>(picture.height);
+    return box.x + box.width > 0 && box.y + box.height > 0 && box.x < static_cast<float>(image.width) &&
+           box.y < static_cast<float>(image.height);
   }
 
  private:
@@ -118,20 +118,21 @@ class CarriedDetection {
     return {box.x + 0.5f * box.width, box.y + 0.5f * box.height};
   }
 
-  /// A feature of the thing: in the box, and where the thing's depth is known, of that depth.
+  /// A feature of the object: in the box, and where the object's depth is known, of that depth.
   bool holds(const FeatureStep& step) const noexcept {
-    return detection.holds(step.to, step.to_depth_m) && (!has_depth_range() || step.to_depth_m > 0);
+    return detection.holds(step.to, static_cast<double>(step.to_depth_m)) &&
+           (!has_depth_range() || step.to_depth_m > 0);
   }
 
-  /// Medians: limbs swing about the trunk, and some features are not the thing's. What comes nearer by a share of its
+  /// Medians: limbs swing about the trunk, and some features are not the object's. What comes nearer by a share of its
   /// depth grows by that share.
-  std::optional<Step> step_of_features(const PictureMotion& picture, std::size_t fewest, Workspace& workspace) const {
+  std::optional<Step> step_of_features(const ImageMotion& image, std::size_t fewest, Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
-    const span<float> x = workspace.take<float>(picture.steps.size());
-    const span<float> y = workspace.take<float>(picture.steps.size());
-    const span<float> nearing = workspace.take<float>(picture.steps.size());
+    const span<float> x = workspace.take<float>(image.steps.size());
+    const span<float> y = workspace.take<float>(image.steps.size());
+    const span<float> nearing = workspace.take<float>(image.steps.size());
     std::size_t count = 0, metric = 0;
-    for (const FeatureStep& step : picture.steps) {
+    for (const FeatureStep& step : image.steps) {
       if (!holds(step)) continue;
       x[count] = step.to.x() - step.from.x();
       y[count++] = step.to.y() - step.from.y();
@@ -142,10 +143,10 @@ class CarriedDetection {
     return Step{displacement, metric > 0 && metric >= fewest ? median_in_place(nearing.first(metric)) : 1.0f};
   }
 
-  /// An edge at the picture's border is where the thing is cut off, not where it ends: it stays outside.
-  void move(const Vector2f& step, float scale, const PictureMotion& picture) {
+  /// An edge at the image's border is where the object is cut off, not where it ends: it stays outside.
+  void move(const Vector2f& step, float scale, const ImageMotion& image) {
     constexpr float kBorder_px = 6.0f;  // detectors' boxes end some pixels before it
-    const auto width = static_cast<float>(picture.width), height = static_cast<float>(picture.height);
+    const auto width = static_cast<float>(image.width), height = static_cast<float>(image.height);
     Box& box = detection.box;
     const Vector2f middle = centre() + step;
     const Vector2f half = 0.5f * scale * Vector2f(box.width, box.height);

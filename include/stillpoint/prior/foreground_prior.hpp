@@ -6,15 +6,15 @@
 
 #include <optional>
 
-#include "stillpoint/core/depth_lookup.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/prior/box_prior.hpp"
-#include "stillpoint/prior/thing_depth.hpp"
+#include "stillpoint/prior/object_depth.hpp"
 
 namespace stillpoint {
 
-/// Detections of the coming frame, each with the depth of its thing: what is much nearer or farther is something else
+/// Detections of the coming frame, each with the depth of its object: what is much nearer or farther is something else
 /// seen past it.
 class ForegroundPrior : public BoxPrior {
  public:
@@ -30,11 +30,11 @@ class ForegroundPrior : public BoxPrior {
 
   /// Leaves the range as it is where there is too little depth.
   void set_range(const DepthView& depth, const DepthScale& to_depth, Detection& detection) const {
-    const std::optional<ThingDepth> thing = ThingDepth::measure(depth, to_depth, detection.box);
-    if (!thing) return;
-    detection.nearest_m = thing->middle_m - kReach_m;
-    detection.farthest_m = thing->middle_m + kReach_m;
-    detection.depth_slope_m = thing->slope_m;
+    const std::optional<ObjectDepth> object = ObjectDepth::measure(depth, to_depth, detection.box);
+    if (!object) return;
+    detection.nearest_m = object->middle_m - kReach_m;
+    detection.farthest_m = object->middle_m + kReach_m;
+    detection.depth_slope_m = object->slope_m;
   }
 };
 

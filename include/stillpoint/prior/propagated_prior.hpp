@@ -19,12 +19,12 @@
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/prior/carried_detection.hpp"
 #include "stillpoint/prior/foreground_prior.hpp"
-#include "stillpoint/prior/picture_motion.hpp"
+#include "stillpoint/prior/image_motion.hpp"
 
 namespace stillpoint {
 
 /// The prior of `DefaultPolicies`. An answer of the detector is carried from its frame to the current one by the motion
-/// of the features on each thing, and on from there until it is seen again or expires. Two ways to hand answers over:
+/// of the features on each object, and on from there until it is seen again or expires. Two ways to hand answers over:
 /// - `prior.detections = {...}` before `filter_frame`: seen in the coming frame. The prior takes them (the vector is
 ///   empty afterwards); a frame for which nothing was written has no answer.
 /// - `prior.detected(timestamp_s, detections)`: seen in the frame of that time, the coming one or one that is long
@@ -38,7 +38,7 @@ class PropagatedPrior : public ForegroundPrior {
   Carrying carrying;
 
   /// An answer of the detector, perhaps late. Answers come in the order of their frames: an older one than the last is
-  /// ignored. So is one of a frame that lies further back than this prior remembers (`PictureMotions::kCapacity`).
+  /// ignored. So is one of a frame that lies further back than this prior remembers (`ImageMotions::kCapacity`).
   /// @param timestamp_s  of the frame that was looked at
   void detected(double timestamp_s, const std::vector<Detection>& found) {
     if (!(timestamp_s > last_answer_s_)) return;
@@ -55,10 +55,10 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// The regions of a frame: what was seen in it, as it was handed over, then what is carried.
   void regions(const FrameView& frame, Regions& regions) {
-    const PictureMotion& picture = pictures_.push(frame);
-    for (CarriedDetection& thing : things_) {
-      thing.predict(picture);
-      follow_depth(frame.depth, DepthScale(frame.image(), frame.depth.image), thing);
+    const ImageMotion& image = pictures_.push(frame);
+    for (CarriedDetection& object : objects_) {
+      object.predict(image);
+      follow_depth(frame.depth, DepthScale(frame.image(), frame.depth.image), object);
     }
     ForegroundPrior::regions(frame, regions);
     if (is_answered_ || !detections.empty()) {
@@ -68,54 +68,55 @@ class PropagatedPrior : public ForegroundPrior {
     }
     detections.clear();
     is_answered_ = false;
-    forget(picture);
-    for (const CarriedDetection& thing : things_)
-      if (thing.seen_s < frame.timestamp_s) append(thing, frame.timestamp_s - thing.seen_s, regions);
+    forget(image);
+    for (const CarriedDetection& object : objects_)
+      if (object.seen_s < frame.timestamp_s) append(object, frame.timestamp_s - object.seen_s, regions);
   }
 
-  /// What moved how since the frame before: the features on each thing carry it.
+  /// What moved how since the frame before: the features on each object carry it.
   template <class Camera>
   void observe(const Observations& observations, const Motion& motion, const Camera& camera) {
     const Matches& matches = observations.matches;
     if (pictures_.empty()) return;
     pictures_.reserve(matches.size());
-    PictureMotion& picture = pictures_.newest();
-    // Frames without key points lie between: these steps are a part of the way.
-    if (motion.reference_timestamp_s > picture.timestamp_s - 0.99 * picture.elapsed_s) return;
-    picture.set_steps(matches);
-    if (motion.usable()) picture.set_camera_motion(motion, camera);
-    for (CarriedDetection& thing : things_) thing.correct(picture, kFewestFeatures, workspace_);
+    ImageMotion& image = pictures_.newest();
+    // Frames without keypoints lie between: these steps are a part of the way.
+    if (motion.reference_timestamp_s > image.timestamp_s - 0.99 * image.elapsed_s) return;
+    image.set_steps(matches);
+    if (motion.usable()) image.set_camera_motion(motion, camera);
+    for (CarriedDetection& object : objects_) object.correct(image, kFewestFeatures, workspace_);
   }
 
-  /// What is known of things in the frame that came last.
-  span<const CarriedDetection> things() const noexcept { return things_; }
+  /// What is known of objects in the frame that came last.
+  span<const CarriedDetection> objects() const noexcept { return objects_; }
+  [[deprecated("objects()")]] span<const CarriedDetection> things() const noexcept { return objects_; }
 
-  /// Forgets things and frames; `detections` stay, they are of the coming frame.
+  /// Forgets objects and frames; `detections` stay, they are of the coming frame.
   void reset() noexcept {
-    things_.clear();
+    objects_.clear();
     pictures_.clear();
     last_answer_s_ = -std::numeric_limits<double>::infinity();
   }
 
  private:
   static constexpr double kHalfLife_s = 1.0;         // in which the confidence of an unseen box halves
-  static constexpr int kMostMissed = 8;              // a thing that was missing in more answers in a row is forgotten
+  static constexpr int kMostMissed = 8;              // a object that was missing in more answers in a row is forgotten
   static constexpr double kGrowth_per_s = 0.2;       // share of its size by which an unseen box grows on each side
-  static constexpr float kLeastOverlap = 0.2f;       // intersection over union: above, a new box is a carried thing's
-  static constexpr double kMostJump_m = 0.2;         // of a thing's depth between frames; more is something before it
-  static constexpr std::size_t kFewestFeatures = 4;  // on a thing, to be carried by them
+  static constexpr float kLeastOverlap = 0.2f;       // intersection over union: above, a new box is a carried object's
+  static constexpr double kMostJump_m = 0.2;         // of a object's depth between frames; more is something before it
+  static constexpr std::size_t kFewestFeatures = 4;  // on a object, to be carried by them
 
-  /// Finds the depth of a carried thing, which can't have jumped: then something else is before it, or it is behind
+  /// Finds the depth of a carried object, which can't have jumped: then something else is before it, or it is behind
   /// something, and its old depth stays.
-  void follow_depth(const DepthView& depth, const DepthScale& to_depth, CarriedDetection& thing) const {
+  void follow_depth(const DepthView& depth, const DepthScale& to_depth, CarriedDetection& object) const {
     if (depth.empty()) return;
-    Detection measured = thing.detection;
+    Detection measured = object.detection;
     set_range(depth, to_depth, measured);
-    const double jump_m = 0.5 * (measured.nearest_m + measured.farthest_m) - thing.depth_m();
-    if (thing.has_depth_range() && !(std::abs(jump_m) <= kMostJump_m)) return;
-    thing.detection.nearest_m = measured.nearest_m;
-    thing.detection.farthest_m = measured.farthest_m;
-    thing.detection.depth_slope_m = measured.depth_slope_m;
+    const double jump_m = 0.5 * (measured.nearest_m + measured.farthest_m) - object.depth_m();
+    if (object.has_depth_range() && !(std::abs(jump_m) <= kMostJump_m)) return;
+    object.detection.nearest_m = measured.nearest_m;
+    object.detection.farthest_m = measured.farthest_m;
+    object.detection.depth_slope_m = measured.depth_slope_m;
   }
 
   /// Lives the frames through again that came after the answer's.
@@ -123,16 +124,16 @@ class PropagatedPrior : public ForegroundPrior {
     fresh_.clear();
     for (const Detection& seen : found) {
       if (!is_valid(seen)) continue;
-      CarriedDetection thing(seen, pictures_[frame].timestamp_s);
-      set_range(pictures_[frame].depth(), pictures_[frame].to_depth(), thing.detection);
-      thing.correct(pictures_[frame], kFewestFeatures, workspace_);
+      CarriedDetection object(seen, pictures_[frame].timestamp_s);
+      set_range(pictures_[frame].depth(), pictures_[frame].to_depth(), object.detection);
+      object.correct(pictures_[frame], kFewestFeatures, workspace_);
       for (std::size_t i = frame + 1; i < pictures_.size(); ++i) {
-        const PictureMotion& picture = pictures_[i];
-        thing.predict(picture);
-        follow_depth(picture.depth(), picture.to_depth(), thing);
-        thing.correct(picture, kFewestFeatures, workspace_);
+        const ImageMotion& image = pictures_[i];
+        object.predict(image);
+        follow_depth(image.depth(), image.to_depth(), object);
+        object.correct(image, kFewestFeatures, workspace_);
       }
-      fresh_.push_back(thing);
+      fresh_.push_back(object);
     }
     merge(pictures_[frame].timestamp_s);
     forget(pictures_.newest());
@@ -141,14 +142,14 @@ class PropagatedPrior : public ForegroundPrior {
   /// Pairs what was seen with what is carried, the best overlap first. What is left over is new, or was missed.
   void merge(double answer_s) {
     const Workspace::Scope scope(workspace_);
-    const span<char> is_taken = workspace_.take<char>(fresh_.size()), is_seen = workspace_.take<char>(things_.size());
+    const span<char> is_taken = workspace_.take<char>(fresh_.size()), is_seen = workspace_.take<char>(objects_.size());
     for (;;) {
       float best = kLeastOverlap;
       std::size_t best_fresh = fresh_.size(), best_thing = 0;
       for (std::size_t f = 0; f < fresh_.size(); ++f) {
-        for (std::size_t t = 0; t < things_.size() && !is_taken[f]; ++t) {
-          if (is_seen[t] || fresh_[f].detection.mobility != things_[t].detection.mobility) continue;
-          const float overlap = intersection_over_union(fresh_[f].detection.box, things_[t].detection.box);
+        for (std::size_t t = 0; t < objects_.size() && !is_taken[f]; ++t) {
+          if (is_seen[t] || fresh_[f].detection.mobility != objects_[t].detection.mobility) continue;
+          const float overlap = intersection_over_union(fresh_[f].detection.box, objects_[t].detection.box);
           if (!(overlap > best)) continue;
           best = overlap;
           best_fresh = f;
@@ -157,31 +158,31 @@ class PropagatedPrior : public ForegroundPrior {
       }
       if (best_fresh == fresh_.size()) break;
       is_taken[best_fresh] = is_seen[best_thing] = 1;
-      things_[best_thing].refresh(fresh_[best_fresh]);
+      objects_[best_thing].refresh(fresh_[best_fresh]);
     }
     for (std::size_t t = 0; t < is_seen.size(); ++t)
-      if (!is_seen[t]) ++things_[t].missed;
+      if (!is_seen[t]) ++objects_[t].missed;
     for (std::size_t f = 0; f < fresh_.size(); ++f)
-      if (!is_taken[f]) things_.push_back(fresh_[f]);
+      if (!is_taken[f]) objects_.push_back(fresh_[f]);
     last_answer_s_ = answer_s;
   }
 
-  void forget(const PictureMotion& picture) {
-    const auto is_gone = [&](const CarriedDetection& thing) {
-      return !(picture.timestamp_s - thing.seen_s <= carrying.longest_s) || thing.missed > kMostMissed ||
-             !thing.is_in(picture);
+  void forget(const ImageMotion& image) {
+    const auto is_gone = [&](const CarriedDetection& object) {
+      return !(image.timestamp_s - object.seen_s <= carrying.longest_s) || object.missed > kMostMissed ||
+             !object.is_in(image);
     };
-    things_.erase(std::remove_if(things_.begin(), things_.end(), is_gone), things_.end());
+    objects_.erase(std::remove_if(objects_.begin(), objects_.end(), is_gone), objects_.end());
   }
 
-  void append(const CarriedDetection& thing, double unseen_s, Regions& regions) const {
+  void append(const CarriedDetection& object, double unseen_s, Regions& regions) const {
     const auto decay = static_cast<float>(std::exp2(-unseen_s / kHalfLife_s));
-    const Detection grown = thing.grown(static_cast<float>(kGrowth_per_s * unseen_s), decay);
+    const Detection grown = object.grown(static_cast<float>(kGrowth_per_s * unseen_s), decay);
     if (is_valid(grown)) regions.detections.push_back(grown);
   }
 
-  PictureMotions pictures_;
-  std::vector<CarriedDetection> things_, fresh_;
+  ImageMotions pictures_;
+  std::vector<CarriedDetection> objects_, fresh_;
   bool is_answered_ = false;  // even if `detections` is empty
   double last_answer_s_ = -std::numeric_limits<double>::infinity();
   Workspace workspace_;

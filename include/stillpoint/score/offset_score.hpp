@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
@@ -19,6 +20,9 @@ namespace stillpoint {
 /// Th = 0.7 θ + 0.3 l (Eq. 9): angle and length of the offset between where a static point would be and where it is.
 class OffsetScore {
  public:
+  using Needs = Capabilities<capability::metric_depth, capability::feature_matches, capability::metric_motion>;
+  using Provides = Capabilities<>;
+
   struct Options {
     double angle_weight = 0.7;   ///< per radian (Eq. 9)
     double length_weight = 0.3;  ///< per metre (Eq. 9)

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
@@ -26,6 +27,9 @@ namespace stillpoint {
 /// there are no lines; a point is expected where the rotation takes it, give or take a little parallax.
 class SampsonScore {
  public:
+  using Needs = Capabilities<capability::feature_matches>;
+  using Provides = Capabilities<capability::log_likelihoods>;
+
   struct Options {
     double least_pixel_sigma = 0.5;   ///< of a match, pixels; it is measured on the trusted matches of each frame
     double most_pixel_sigma = 1.0;    ///< where it is more, the motion does not explain the frame: nothing is scored

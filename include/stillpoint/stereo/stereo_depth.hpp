@@ -17,8 +17,8 @@
 #include <string>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 
 namespace stillpoint {
 

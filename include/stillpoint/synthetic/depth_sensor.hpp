@@ -12,9 +12,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/synthetic/noise.hpp"
 #include "stillpoint/synthetic/scene.hpp"
 
@@ -64,17 +64,17 @@ class DepthSensor {
             shadow_px = 2 + static_cast<int>(random.index(3));
             shadowed_m = z;
           }
-          lost = lost || (shadow_px > 0 && shadowed_m - z < jump(z)) || !(z >= options_.nearest_m);
+          lost = lost || (shadow_px > 0 && shadowed_m - z < jump(z)) || !(static_cast<double>(z) >= options_.nearest_m);
           if (shadow_px > 0) --shadow_px;
           if (knows_return)
-            lost = lost || !(light.returned[at] > options_.least_return);
+            lost = lost || !(static_cast<double>(light.returned[at]) > options_.least_return);
           else if (!options_.stereo_noise)
             lost = lost || grazes(light.cosine[at], random);
           z = options_.flying_pixel_share > 0 ? mixed(exact, u, v, random) : ragged(exact, u, v, random);
           lost = lost || !(z > 0.0f);
         }
         if (options_.depth_noise) z = noisy(z, normal.next());
-        out[u] = lost || !(z <= options_.farthest_m) ? std::uint16_t{0} : quantised(z);
+        out[u] = lost || !(static_cast<double>(z) <= options_.farthest_m) ? std::uint16_t{0} : quantised(z);
       }
     }
   }
@@ -137,7 +137,8 @@ class DepthSensor {
 
   float noisy(float depth_m, float deviate) const noexcept {
     if (!(depth_m > 0.0f)) return depth_m;
-    return options_.stereo_noise ? noisy_stereo(depth_m, deviate) : noisy_kinect(depth_m, deviate);
+    const auto z = static_cast<double>(depth_m), n = static_cast<double>(deviate);
+    return options_.stereo_noise ? noisy_stereo(z, n) : noisy_kinect(z, n);
   }
 
   float noisy_stereo(double depth_m, double deviate) const noexcept {

@@ -4,7 +4,7 @@
 
 // Rays against solids: what each pixel's ray meets first, and what colour is there.
 //
-// All inner loops use plain floats: they run millions of times a frame, in debug builds too.
+// All inner loops use plain floats: they run millions of times per frame, in debug builds too.
 
 #include <algorithm>
 #include <array>

@@ -34,7 +34,7 @@ inline Path crossing(double lane_z_m, double end_x_m, double start_x_m, double s
   return way.path(Blend::linear);
 }
 
-/// A screen on the back wall and a polished kettle on the table: neither has a depth.
+/// A screen on the back wall and a refined kettle on the table: neither has a depth.
 inline void add_specular_objects(std::vector<Solid>& solids) {
   const TexturePtr glass = solids.back().textures[0];
   solids.emplace_back(Shape::cuboid, Vector3d(0.40, 0.24, 0.02), Vector3d(-0.95, -1.55, 3.57), glass);

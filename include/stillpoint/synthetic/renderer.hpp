@@ -132,7 +132,7 @@ class SyntheticSequence {
           furniture_ids[u] = actor.furniture_id;
           if (actor.mover_id != 0) {
             const auto p = actor.placed.point(grid_.at(u, v), depth[u]);
-            labels[u] = actor.motion.moves(Vector3d(p[0], p[1], p[2])) ? kMoving : kAtRest;
+            labels[u] = actor.motion.moves(Eigen::Vector3f(p[0], p[1], p[2]).cast<double>()) ? kMoving : kAtRest;
           }
         }
         const Shading& shading = surfaces_.shadings(v)[u];

@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/synthetic/path.hpp"
 #include "stillpoint/synthetic/texture.hpp"
 

@@ -61,7 +61,7 @@ inline CameraPath wandering_camera(const SceneOptions& options) {
           hand(options)};
 }
 
-inline CameraPath standing_camera_path() { return {Path({{0.0, {0.0, -1.42, -0.80}, 0.0, -0.19, 0.0}}), {}}; }
+inline CameraPath stationary_camera_path() { return {Path({{0.0, {0.0, -1.42, -0.80}, 0.0, -0.19, 0.0}}), {}}; }
 
 inline Path box_path() {
   return PathBuilder({0.85, 0, 1.05}, 0.3)
@@ -145,11 +145,11 @@ inline Scene waving_hand(const SceneOptions& options = {}) {
   return scene;
 }
 
-/// A box comes straight at a standing camera along its line of sight, stands, and goes back: hardly any motion in
+/// A box comes straight at a stationary camera along its line of sight, stands, and goes back: hardly any motion in
 /// the image, all of it in depth.
 inline Scene along_the_ray(const SceneOptions& options = {}) {
   Scene scene = detail::stage("along_the_ray", options);
-  scene.camera_path = detail::standing_camera_path();
+  scene.camera_path = detail::stationary_camera_path();
   const Pose world_from_camera = scene.camera_path.world_from_camera(0.0);
   const Vector3d sight = world_from_camera.linear().col(2), eye = world_from_camera.translation();
   const Vector3d below_centre(0, 0.25, 0);  // from the box's centre to its origin
@@ -163,7 +163,7 @@ inline Scene along_the_ray(const SceneOptions& options = {}) {
   return scene;
 }
 
-/// Someone stands right before a standing camera, fills more than three quarters of its view, and sways.
+/// Someone stands right before a stationary camera, fills more than three quarters of its view, and sways.
 inline Scene crowded_view(const SceneOptions& options = {}) {
   Scene scene = detail::stage("crowded_view", options);
   scene.camera_path = {Path({{0.0, {0.0, -1.17, -0.80}, 0.0, 0.0, 0.0}}), {}};
@@ -189,10 +189,10 @@ inline Scene pure_rotation(const SceneOptions& options = {}, bool with_people = 
 }
 
 /// The camera stands on a tripod while two people walk.
-inline Scene standing_camera(const SceneOptions& options = {}) {
+inline Scene stationary_camera(const SceneOptions& options = {}) {
   Scene scene = walking_people(options);
-  scene.name = "standing_camera";
-  scene.camera_path = detail::standing_camera_path();
+  scene.name = "stationary_camera";
+  scene.camera_path = detail::stationary_camera_path();
   return scene;
 }
 

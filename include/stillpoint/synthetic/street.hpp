@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/depth_noise.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/synthetic/path.hpp"
 #include "stillpoint/synthetic/room.hpp"
 #include "stillpoint/synthetic/scene.hpp"

@@ -136,7 +136,8 @@ class Texture {
 
   void paint_ground(const TextureStyle& style, Random& random) {
     const int size = levels_[0].size;
-    const int cells = std::max(1, static_cast<int>(std::lround(size / (style.cell_m * texels_per_metre_))));
+    const int cells =
+        std::max(1, static_cast<int>(std::lround(size / (style.cell_m * static_cast<double>(texels_per_metre_)))));
     std::vector<double> gains(place(cells, cells, 0));
     for (double& gain : gains) gain = random.uniform(0.8, 1.15);
     for (int y = 0; y < size; ++y) {

@@ -38,7 +38,7 @@ class Filter {
     settings_ = settings;
   }
 
-  /// Judges the key points of a frame. Call it before the tracker, with frames in the order of time. Throws nothing but
+  /// Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time. Throws nothing but
   /// std::bad_alloc.
   /// @param image        CV_8UC1, or CV_8UC3 (BGR); as the camera gives it, that is distorted
   /// @param depth        CV_16UC1 in units of `Settings::depth_factor`, or CV_32FC1 in metres; empty where there is

@@ -69,7 +69,7 @@ void erase_masked_candidates(const cv::Mat& mask, std::vector<Candidate>& candid
 
 /// Compacts a finished RGB-D Frame, before Track() sees it: mvKeys, mvKeysUn, mvuRight, mvDepth, mDescriptors,
 /// mvpMapPoints and mvbOutlier together, in order; mGrid gets the new indices, N the new number.
-/// @param keep   Result::keep, one byte a keypoint; all 0 drops none, since a Frame without features is
+/// @param keep   Result::keep, one byte per keypoint; all 0 drops none, since a Frame without features is
 /// half-initialised
 /// @param frame  the host's Frame
 /// @return the new N

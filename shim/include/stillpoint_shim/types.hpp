@@ -73,7 +73,7 @@ struct Box {
 
 /// The answer for one frame.
 struct Result {
-  std::vector<unsigned char> keep;     ///< one byte a key point, in their order: 1 keep, 0 drop
+  std::vector<unsigned char> keep;     ///< one byte per keypoint, in their order: 1 keep, 0 drop
   std::size_t kept_count = 0;          ///< how many are 1
   bool judged = false;                 ///< false: the frame could not be judged, everything is kept
   const char* status = "first_frame";  ///< why: `to_string` of core/status.hpp, or "failed"; never freed
@@ -124,7 +124,7 @@ STILLPOINT_SHIM_API bool change_settings(Engine& engine, const Settings& setting
 /// Writes `points.count` bytes.
 STILLPOINT_SHIM_API Answer filter_frame(Engine& engine, const Image& image, const Image& depth, double timestamp_s,
                                         const Points& points, unsigned char* keep) noexcept;
-/// Of the last frame; `size` is its number of key points.
+/// Of the last frame; `size` is its number of keypoints.
 STILLPOINT_SHIM_API void copy_weights(const Engine& engine, float* weights, std::size_t size) noexcept;
 /// Of the camera's size: 255 keeps, 0 drops.
 STILLPOINT_SHIM_API void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept;

@@ -31,11 +31,19 @@ if(folder)
   get_property(targets DIRECTORY "${folder}" PROPERTY BUILDSYSTEM_TARGETS)
   if(COMPONENT STREQUAL "shim")
     list(REMOVE_ITEM subfolders "${folder}/shim")
+  elseif(COMPONENT STREQUAL "compiled")
+    list(REMOVE_ITEM subfolders "${folder}/compiled")
   endif()
   list(REMOVE_ITEM targets stillpoint stillpoint_core stillpoint_options stillpoint_io stillpoint_dnn stillpoint_onnxruntime)
   if(subfolders OR targets)
     message(FATAL_ERROR "the library brought along ${targets} ${subfolders}")
   endif()
+endif()
+
+# To the host these are headers of the system.
+get_target_property(system_folders stillpoint::core INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+if(folder AND NOT system_folders MATCHES "${LIBRARY}/include")
+  message(FATAL_ERROR "system include folders are '${system_folders}', without the library's")
 endif()
 
 # What a host links carries no flags.

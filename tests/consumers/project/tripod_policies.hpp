@@ -5,7 +5,7 @@
 // Policies of a host that stands on a tripod and tracks its features itself. No OpenCV.
 
 #include <stillpoint/cluster/region_clusters.hpp>
-#include <stillpoint/core/depth_noise.hpp>
+#include <stillpoint/depth/depth_noise.hpp>
 #include <stillpoint/filter_frame.hpp>
 #include <stillpoint/gate/mean_gate.hpp>
 #include <stillpoint/match/provided_matches.hpp>

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// A host with OpenCV: pictures are cv::Mat, key points cv::KeyPoint.
+// A host with OpenCV: pictures are cv::Mat, keypoints cv::KeyPoint.
 
 #include <cstdio>
 #include <opencv2/core.hpp>
+#include <stillpoint/policies.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <vector>
 

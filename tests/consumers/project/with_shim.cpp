@@ -20,7 +20,7 @@ unsigned char texture(int u, int v) {
   return static_cast<unsigned char>((u / 4 * 73856093 ^ v / 4 * 19349663) >> 7 & 255);
 }
 
-/// The key points that are left in the last frame.
+/// The keypoints that are left in the last frame.
 std::vector<cv::KeyPoint> run() {
   stillpoint_shim::Camera camera;
   camera.fx = camera.fy = 200, camera.cx = 159.5, camera.cy = 119.5, camera.width = 320, camera.height = 240;

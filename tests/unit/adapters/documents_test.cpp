@@ -28,7 +28,7 @@
 namespace {
 
 // clang-format off
-/// Behind the extractor, before the tracker. The arrays are the host's, one entry a key point.
+/// Behind the extractor, before the tracker. The arrays are the host's, one entry per keypoint.
 void filter_features(stillpoint::FrameFilter<>& filter, const cv::Mat& gray, const cv::Mat& depth_mm, double time_s,
                      std::vector<cv::KeyPoint>& keypoints, cv::Mat& descriptors) {
   const auto depth = stillpoint::DepthView::millimetres(depth_mm);   // 16 bit; float images are metres
@@ -66,7 +66,7 @@ void set_filtered_features(const stillpoint::FrameResult& result, std::vector<cv
   data.setFeatures(keypoints, keypoints3D, descriptors);
 }
 
-/// Between trackImage and inputFeature. `ids` in the order of the key points that were filtered.
+/// Between trackImage and inputFeature. `ids` in the order of the keypoints that were filtered.
 template <class FrameFeatures>
 void erase_moving(const stillpoint::FrameResult& result, const std::vector<int>& ids,
                   std::map<int, FrameFeatures>& feature_frame) {

@@ -12,13 +12,13 @@
 #include <set>
 #include <vector>
 
-#include "stillpoint/adapters/filtered_tracker.hpp"
-#include "stillpoint/adapters/null_filter.hpp"
 #include "stillpoint/adapters/opencv_tracker.hpp"
 #include "stillpoint/adapters/openvins.hpp"
 #include "stillpoint/adapters/rtabmap.hpp"
 #include "stillpoint/adapters/stella_vslam.hpp"
 #include "stillpoint/adapters/vins.hpp"
+#include "stillpoint/filtered_tracker.hpp"
+#include "stillpoint/null_filter.hpp"
 #include "unit/adapters/look_alikes.hpp"
 #include "unit/adapters/tagged_arrays.hpp"
 #include "unit/error_of.hpp"

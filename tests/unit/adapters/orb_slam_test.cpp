@@ -53,7 +53,7 @@ TEST(OrbSlam, AFrameOfTwoFisheyesIsSentToTheOtherHook) {
   look_alikes::fill_all(std::tie(frame.mvKeys, frame.mvDepth, frame.mDescriptors), 4);
   EXPECT_EQ(
       error_of([&] { orb_slam::compact_after_depth(Flags(4, 1), frame); }),
-      "orb_slam: mvKeysUn is empty, which is so in a Frame of two fisheye cameras; expected one entry a key point, "
+      "orb_slam: mvKeysUn is empty, which is so in a Frame of two fisheye cameras; expected one entry per keypoint, "
       "or compact_mono_first for each camera after extraction");
 }
 
@@ -97,7 +97,7 @@ TEST(OrbSlam, TheCountOfMonocularKeyPointsFollows) {
   EXPECT_EQ(mono_left, 2);
   mono_left = 7;
   EXPECT_EQ(error_of([&] { orb_slam::compact_mono_first(Flags(3, 1), keypoints, descriptors, mono_left); }),
-            "orb_slam: mono_count is 7, expected 0 to the 3 key points of the camera");
+            "orb_slam: mono_count is 7, expected 0 to the 3 keypoints of the camera");
   mono_left = -1;  // what the host has in a frame of one camera
   EXPECT_THROW(orb_slam::compact_mono_first(Flags(3, 1), keypoints, descriptors, mono_left), stillpoint::Error);
 }

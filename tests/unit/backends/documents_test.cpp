@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "backends/klt_odometry.hpp"
-#include "stillpoint/adapters/filtered_tracker.hpp"
+#include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/stillpoint.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "backends/orb_features.hpp"
-#include "sightings.hpp"
+#include "observations.hpp"
 
 namespace {
 

@@ -9,12 +9,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "sightings.hpp"
+#include "observations.hpp"
 #include "stillpoint/core/random.hpp"
 
 namespace {
 
-using examples::PointSighting;
+using examples::PointObservation;
 using examples::PoseRefinement;
 using stillpoint::Pose;
 using stillpoint::Random;
@@ -28,93 +28,94 @@ Pose some_pose(Random& random) {
   return pose;
 }
 
-TEST(PoseRefinement, FindsThePoseOfExactSightings) {
+TEST(PoseRefinement, FindsThePoseOfExactObservations) {
   Random random(1);
   for (int run = 0; run < 50; ++run) {
     const Pose truth = some_pose(random);
-    std::vector<PointSighting> sightings;
-    for (int i = 0; i < 40; ++i) sightings.push_back(sighting(random, truth));
+    std::vector<PointObservation> past_observations;
+    for (int i = 0; i < 40; ++i) past_observations.push_back(observation(random, truth));
     Pose pose = Pose::Identity();
     std::vector<std::uint8_t> inlier;
-    EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 40u);
+    EXPECT_EQ(PoseRefinement{}(past_observations, camera(), pose, inlier), 40u);
     EXPECT_LT(error_m(pose, truth), 1e-6);  // metres; the search ends at steps of 1e-7
   }
 }
 
-TEST(PoseRefinement, WrongSightingsAreLeftOut) {
+TEST(PoseRefinement, WrongObservationsAreLeftOut) {
   Random random(2);
   for (int run = 0; run < 50; ++run) {
     const Pose truth = some_pose(random);
-    std::vector<PointSighting> sightings;
+    std::vector<PointObservation> past_observations;
     for (int i = 0; i < 60; ++i) {
-      sightings.push_back(sighting(random, truth));
-      if (i % 4 == 0) sightings.back().pixel.x() += 30.0;
+      past_observations.push_back(observation(random, truth));
+      if (i % 4 == 0) past_observations.back().pixel.x() += 30.0;
     }
     Pose pose = truth;
     std::vector<std::uint8_t> inlier;
-    EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 45u);
+    EXPECT_EQ(PoseRefinement{}(past_observations, camera(), pose, inlier), 45u);
     for (std::size_t i = 0; i < inlier.size(); ++i) EXPECT_EQ(inlier[i], i % 4 == 0 ? 0 : 1);
     EXPECT_LT(error_m(pose, truth), 1e-6);
   }
 }
 
-// Thirty sightings of the world, and ninety of a mover that went on by 4 mm, within the noise that is assumed: they
-// pull the pose along by their share of the weight, 90 w / (30 + 90 w). All in full: 3 mm; with a weight of 1/60: 0.2
-// mm.
-TEST(PoseRefinement, WeightsSayHowMuchASightingPulls) {
+// Thirty past_observations of the world, and ninety of a mover that went on by 4 mm, within the noise that is assumed:
+// they pull the pose along by their share of the weight, 90 w / (30 + 90 w). All in full: 3 mm; with a weight of 1/60:
+// 0.2 mm.
+TEST(PoseRefinement, WeightsSayHowMuchAnObservationPulls) {
   for (const double weight : {1.0, 1.0 / 60.0}) {
     Random random(4);
     const Pose truth = some_pose(random);
-    std::vector<PointSighting> sightings;
+    std::vector<PointObservation> past_observations;
     for (int i = 0; i < 120; ++i) {
-      sightings.push_back(sighting(random, truth));
-      sightings.back().pixel_sigma = 20.0;
-      sightings.back().depth_sigma_m = 0.1;
+      past_observations.push_back(observation(random, truth));
+      past_observations.back().pixel_sigma = 20.0;
+      past_observations.back().depth_sigma_m = 0.1;
       if (i % 4 == 0) continue;
-      sightings.back().p_world.x() += 0.004;
-      sightings.back().weight = weight;
+      past_observations.back().p_world.x() += 0.004;
+      past_observations.back().weight = weight;
     }
     Pose pose = truth;
     pose.translation().x() += 0.01;
     std::vector<std::uint8_t> inlier;
-    PoseRefinement{}(sightings, camera(), pose, inlier);
+    PoseRefinement{}(past_observations, camera(), pose, inlier);
     EXPECT_NEAR(error_m(pose, truth), 0.004 * 90 * weight / (30 + 90 * weight), 0.0003) << weight;
   }
 }
 
 // A camera that went 0.5 m aside sees a point, 2 m off in the old view, 525 * 0.5 / 2 = 131 px further left. With an
 // old depth that was 3 % (0.06 m) too long it expects 525 * 0.5 / 2.06 = 127.4 px, 3.8 px off: at 0.5 px far beyond the
-// limit of 2.8 deviations, but with 0.05 m for the depth's own deviation (3.3 px here) it is as good a sighting as any.
+// limit of 2.8 deviations, but with 0.05 m for the depth's own deviation (3.3 px here) it is as good a observation as
+// any.
 TEST(PoseRefinement, AnUncertainPointMayMissItsPixel) {
   Random random(3);
   Pose truth = Pose::Identity();
   truth.translation().x() = -0.5;
-  std::vector<PointSighting> sightings;
+  std::vector<PointObservation> past_observations;
   for (int i = 0; i < 40; ++i) {
-    sightings.push_back(sighting(random, truth));
-    sightings.back().pixel_sigma = 0.5;
+    past_observations.push_back(observation(random, truth));
+    past_observations.back().pixel_sigma = 0.5;
   }
   const Vector3d p_world(0.3, 0.0, 2.0);
-  PointSighting too_long{1.03 * p_world, camera().project(truth * p_world), 0.5};
-  sightings.push_back(too_long);
+  PointObservation too_long{1.03 * p_world, camera().project(truth * p_world), 0.5};
+  past_observations.push_back(too_long);
   too_long.p_sigma_m = p_world * (0.05 / p_world.z());
-  sightings.push_back(too_long);
+  past_observations.push_back(too_long);
   Pose pose = truth;
   std::vector<std::uint8_t> inlier;
-  EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 41u);
+  EXPECT_EQ(PoseRefinement{}(past_observations, camera(), pose, inlier), 41u);
   EXPECT_EQ(inlier[40], 0);
   EXPECT_EQ(inlier[41], 1);
 }
 
 TEST(PoseRefinement, APointBehindTheCameraFitsNothing) {
   Random random(4);
-  std::vector<PointSighting> sightings;
-  for (int i = 0; i < 20; ++i) sightings.push_back(sighting(random, Pose::Identity()));
-  sightings.push_back({Vector3d(0, 0, -1), {319.5, 239.5}});
-  sightings.back().p_sigma_m = Vector3d(0, 0, 1);
+  std::vector<PointObservation> past_observations;
+  for (int i = 0; i < 20; ++i) past_observations.push_back(observation(random, Pose::Identity()));
+  past_observations.push_back({Vector3d(0, 0, -1), {319.5, 239.5}});
+  past_observations.back().p_sigma_m = Vector3d(0, 0, 1);
   Pose pose = Pose::Identity();
   std::vector<std::uint8_t> inlier;
-  EXPECT_EQ(PoseRefinement{}(sightings, camera(), pose, inlier), 20u);
+  EXPECT_EQ(PoseRefinement{}(past_observations, camera(), pose, inlier), 20u);
   EXPECT_EQ(inlier.back(), 0);
   EXPECT_LT(error_m(pose, Pose::Identity()), 1e-9);  // metres; it starts at the truth
 }

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint {

@@ -9,7 +9,7 @@
 #include <set>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint::region_clusters_test {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint::surface_clusters_test {
@@ -201,10 +201,10 @@ TEST_F(SurfaceClustersTest, AFeatureWithoutAnyDepthAnswersForItselfToo) {
 TEST_F(SurfaceClustersTest, AFeatureWithABorrowedDepthIsOneOfItsSurface) {
   for (int i = 0; i < 2; ++i) add({100, 100}, 2.0, 0.0f);
   add({100, 100}, 0.0, 3.0f);
-  matches_.sightings.add(matches_.size());
-  matches_.sightings.point[2] = {0, 0, 2};
+  matches_.past_observations.add(matches_.size());
+  matches_.past_observations.point[2] = {0, 0, 2};
   for (const auto& [spread, shift] : {std::pair(0.01, 0.0f), std::pair(0.1, -1.5f)}) {
-    matches_.sightings.inverse_depth_sigma[2] = spread / 2.0;
+    matches_.past_observations.inverse_depth_sigma[2] = spread / 2.0;
     classify();
     EXPECT_NEAR(labels_[2].log_odds, 0.8f + shift, kRounding) << spread;
     EXPECT_EQ(labels_[2].cluster, labels_[0].cluster);

@@ -106,7 +106,7 @@ TEST(Distortion, UndistortInvertsDistortOverTheWholeImage) {
     for (int v = 0; v < camera.height(); v += 5) {
       for (int u = 0; u < camera.width(); u += 5) {
         const Vector2d image(u, v), ideal = camera.undistort(image);
-        // What a key point needs: the pixel that the lens makes of the ideal one is the pixel that was seen.
+        // What a keypoint needs: the pixel that the lens makes of the ideal one is the pixel that was seen.
         ASSERT_LE((camera.distort(ideal) - image).norm(), 1e-7) << "fx " << camera.fx() << " at " << u << ", " << v;
         ASSERT_LE((camera.undistort(camera.distort(ideal)) - ideal).norm(), 1e-6) << u << ", " << v;
       }

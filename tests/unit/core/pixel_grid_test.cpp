@@ -92,7 +92,7 @@ TEST(PixelGrid, AnswersOddQuestionsWithNothing) {
     EXPECT_TRUE(neighbours(grid, pixel, 20.0f).empty()) << pixel.transpose();
 }
 
-// A host may hand over anything: one key point at the end of the world costs no memory of that size.
+// A host may hand over anything: one keypoint at the end of the world costs no memory of that size.
 TEST(PixelGrid, AFarPointNeitherHidesOthersNorCostsMemory) {
   std::vector<Vector2f> pixels = {{10, 10}, {1e30f, 1e30f}, {-1e30f, 4}, {99000, 99000}};
   Workspace workspace;

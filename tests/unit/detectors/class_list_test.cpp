@@ -10,7 +10,7 @@
 #include <string>
 
 #include "stillpoint/core/regions.hpp"
-#include "stillpoint/prior/mobility_table.hpp"
+#include "stillpoint/detectors/mobility_table.hpp"
 #include "unit/detectors/made_tensor.hpp"
 
 namespace stillpoint {

@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint {
 namespace {

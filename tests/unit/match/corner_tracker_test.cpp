@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 #include "wave_texture.hpp"

@@ -47,19 +47,31 @@ TEST(BilinearWeights, AWholePixelIsItself) {
   EXPECT_EQ(sample_pixel(upper, lower, BilinearWeights(1, 1)), 11 * 16);
 }
 
-// The kernel of eight pixels against the one of one pixel, bit for bit.
-TEST(SampleRow, IsEightTimesSamplePixel) {
+// The kernel of all pixels against the one of one pixel, bit for bit: white, black, edges between them and anything
+// else, in places where a weight is 0 or, by rounding, −1.
+TEST(SampleSquare, IsSamplePixelOfEachPlace) {
   Random random(2);
+  constexpr std::size_t kWidth = 13;
+  int negative = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    std::array<std::uint8_t, 9> upper, lower;
-    // White, black and anything between: sums are largest in white.
-    for (std::uint8_t& pixel : upper) pixel = trial % 3 == 0 ? 255 : trial % 3 == 1 ? 0 : gray(random);
-    for (std::uint8_t& pixel : lower) pixel = trial % 4 == 0 ? 255 : gray(random);
-    const BilinearWeights weights(static_cast<float>(random.uniform()), static_cast<float>(random.uniform()));
-    std::array<std::int16_t, 8> row;
-    sample_row(upper.data(), lower.data(), weights, row.data());
-    for (std::size_t i = 0; i < 8; ++i) ASSERT_EQ(row[i], sample_pixel(&upper[i], &lower[i], weights)) << i;
+    std::array<std::uint8_t, 10 * kWidth> image;
+    for (std::uint8_t& pixel : image) {
+      const int contrast = trial % 4;
+      pixel = contrast == 0 ? 255 : contrast == 1 ? 0 : contrast == 2 ? gray(random) : random.uniform() < 0.5 ? 0 : 255;
+    }
+    const double small = trial % 5 == 0 ? 1e-4 : 1.0;
+    const BilinearWeights weights(static_cast<float>(small * random.uniform()),
+                                  trial % 10 == 0 ? 0.5f : static_cast<float>(random.uniform()));
+    negative += weights.diagonal < 0 ? 1 : 0;
+    PatchPixels square;
+    sample_square(&image[1], kWidth, weights, square);
+    for (std::size_t j = 0; j < 8; ++j)
+      for (std::size_t i = 0; i < 8; ++i) {
+        const std::uint8_t* const pixel = &image[1 + j * kWidth + i];
+        ASSERT_EQ(square[8 * j + i], sample_pixel(pixel, pixel + kWidth, weights)) << trial << ": " << i << ", " << j;
+      }
   }
+  EXPECT_GT(negative, 20);
 }
 
 // The largest that can be: 64 samples of 255 levels in sixteenths, 64 · 4080² = 1065369600 < 2³¹.

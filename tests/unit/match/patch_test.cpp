@@ -8,8 +8,8 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "stillpoint/core/depth_tolerance.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/opencv.hpp"
 #include "wave_texture.hpp"
 

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/guarded_depth.hpp"
-#include "stillpoint/core/optional_stages.hpp"
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint::provided_matches_test {
@@ -118,9 +118,9 @@ class ChainedTracksTest : public testing::Test {
     lift(current, GuardedDepth(), camera_, KinectNoise(), matches_.current);
     lift(reference, GuardedDepth(), camera_, KinectNoise(), matches_.reference);
     if (!history_.empty()) {
-      matcher_.survey(history_, current, Pose::Identity(), camera_, KinectNoise(), matches_, workspace_);
+      matcher_.choose_keyframes(history_, current, Pose::Identity(), camera_, KinectNoise(), matches_, workspace_);
       Observations observations = test::observations_of(matches_);
-      matcher_.look_back(history_, current, Pose::Identity(), camera_, KinectNoise(), observations);
+      matcher_.reproject_into_past(history_, current, Pose::Identity(), camera_, KinectNoise(), observations);
       matches_ = observations.matches;
     }
     history_.push(current, Pose::Identity());
@@ -130,7 +130,7 @@ class ChainedTracksTest : public testing::Test {
   /// The feature's pixel in the older frames that were looked at, by age; none where no track says.
   std::map<std::size_t, float> columns(std::size_t i) const {
     std::map<std::size_t, float> columns;
-    for (const OlderFrame& older : matches_.sightings.frames())
+    for (const OlderFrame& older : matches_.past_observations.frames())
       if (std::isfinite(older.of_feature[i].dissimilarity)) columns[older.age] = older.of_feature[i].found.x();
     return columns;
   }
@@ -145,7 +145,7 @@ class ChainedTracksTest : public testing::Test {
   ProvidedMatches matcher_;
 };
 
-static_assert(looks_back<ProvidedMatches, Camera, KinectNoise>::value);
+static_assert(reprojects_into_past<ProvidedMatches, Camera, KinectNoise>::value);
 
 TEST_F(ChainedTracksTest, ATrackSaysWhereAFeatureWasInOlderFrames) {
   float u = 30;
@@ -164,7 +164,7 @@ TEST_F(ChainedTracksTest, AFeatureGoesOnFromTheNearestOneOfTheLastFrame) {
   EXPECT_NEAR(columns(0)[2], 30.2f, 1e-3) << "0.2 px beside the last frame's feature, and so before";
   EXPECT_EQ(columns(1).count(2), 0u) << "2.2 px from any: its track begins there";
   EXPECT_EQ(columns(1).count(1), 1u);
-  EXPECT_NEAR(columns(2)[2], 30.8f, 1e-3) << "a key point that was detected anew, within a pixel of the last one";
+  EXPECT_NEAR(columns(2)[2], 30.8f, 1e-3) << "a keypoint that was detected anew, within a pixel of the last one";
 }
 
 TEST_F(ChainedTracksTest, SurfacesThatCameHaveLittleSayInTheMotion) {
@@ -172,7 +172,7 @@ TEST_F(ChainedTracksTest, SurfacesThatCameHaveLittleSayInTheMotion) {
   depth_(cv::Rect(60, 30, 60, 60)).setTo(1.2);
   next({{30, 60}}, {{30, 60}});
   int came = 0, stood = 0;
-  for (const SurfaceCell& cell : matches_.sightings.surfaces) {
+  for (const SurfaceCell& cell : matches_.past_observations.surfaces) {
     ++(cell.point.z() < 1.5 ? came : stood);
     EXPECT_EQ(cell.space_trust < 0.5f, cell.point.z() < 1.5) << cell.pixel.transpose();
   }
@@ -195,7 +195,7 @@ TEST_F(ChainedTracksTest, AFrameThatWasNotMatchedEndsAllTracks) {
   next({{30, 60}}, {});
   next({{33, 60}}, {{30, 60}});
   time_s_ += 1 / 30.0;
-  history_.push(frame(), Pose::Identity());  // without key points
+  history_.push(frame(), Pose::Identity());  // without keypoints
   next({{36, 60}}, {{33, 60}});
   EXPECT_EQ(columns(0).size(), 1u);
 }
@@ -225,8 +225,8 @@ TEST_F(ChainedTracksTest, BesideSomethingNearerNoTrackIsBelieved) {
   next({{38, 60}, {20, 60}, {42, 60}}, {{38, 60}, {20, 60}, {42, 60}});
   EXPECT_TRUE(columns(0).empty()) << "two pixels beside";
   EXPECT_EQ(columns(1).size(), 1u);
-  for (const OlderFrame& older : matches_.sightings.frames())
-    EXPECT_EQ(older.of_feature[1].state, SightingState::seen) << older.age;
+  for (const OlderFrame& older : matches_.past_observations.frames())
+    EXPECT_EQ(older.of_feature[1].state, ObservationState::seen) << older.age;
 }
 
 TEST_F(ChainedTracksTest, AHistoryOfOneFrameIsNotLookedBackInto) {
@@ -234,7 +234,7 @@ TEST_F(ChainedTracksTest, AHistoryOfOneFrameIsNotLookedBackInto) {
   next({{30, 60}}, {});
   next({{33, 60}}, {{30, 60}});
   EXPECT_EQ(matches_.state[0], MatchState::matched);
-  EXPECT_TRUE(matches_.sightings.frames().empty());
+  EXPECT_TRUE(matches_.past_observations.frames().empty());
 }
 
 }  // namespace

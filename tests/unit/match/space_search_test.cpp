@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_noise.hpp"
-#include "stillpoint/core/space_history.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/space_history.hpp"
 
 namespace stillpoint::space_search_test {
 namespace {
@@ -72,11 +72,11 @@ class SpaceSearchTest : public testing::Test {
     Matches matches;
     const std::vector<Vector2f> pixels = {{160, 120}};
     matches.begin(pixels);
-    matches.sightings.add(1);
-    matches.sightings.point[0] = camera_.back_project({160, 120}, depth_m);
-    matches.sightings.inverse_depth_sigma[0] = spread / depth_m;
+    matches.past_observations.add(1);
+    matches.past_observations.point[0] = camera_.back_project({160, 120}, depth_m);
+    matches.past_observations.inverse_depth_sigma[0] = spread / depth_m;
     search_.count_views_through(history_, kNow_s, filter_from_current, camera_, KinectNoise(), matches);
-    return matches.sightings.seen_through[0];
+    return matches.past_observations.seen_through[0];
   }
 
   /// Trust of a surface cell at `depth_m` beside `others` cells on the wall, and how often it was there.
@@ -86,15 +86,15 @@ class SpaceSearchTest : public testing::Test {
     SurfaceCell asked;
     asked.pixel = Vector2f(160, 120);
     asked.point = camera_.back_project({160, 120}, depth_m);
-    matches.sightings.surfaces.push_back(asked);
+    matches.past_observations.surfaces.push_back(asked);
     for (int k = 0; k < others; ++k) {
       SurfaceCell wall;
       wall.pixel = Vector2f(40.0f + 20.0f * static_cast<float>(k), 60.0f);
       wall.point = camera_.back_project(wall.pixel.cast<double>(), 3.0);
-      matches.sightings.surfaces.push_back(wall);
+      matches.past_observations.surfaces.push_back(wall);
     }
     distrust(matches);
-    return matches.sightings.surfaces[0];
+    return matches.past_observations.surfaces[0];
   }
 
   void distrust(Matches& matches) {
@@ -159,11 +159,11 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
     SurfaceCell cell;
     cell.pixel = Vector2f(u, v);
     cell.point = camera_.back_project(cell.pixel.cast<double>(), depth_m);
-    matches.sightings.surfaces.push_back(cell);
+    matches.past_observations.surfaces.push_back(cell);
   };
   for (int u = 10; u < kWidth; u += kStep_px)
     if (u / kStep_px != 2) add_cell(static_cast<float>(u), 110, 2.0);
-  const std::size_t body_count = matches.sightings.surfaces.size();
+  const std::size_t body_count = matches.past_observations.surfaces.size();
   for (int v : {170, 190, 210, 230})
     for (int u = 10; u < kWidth; u += kStep_px) add_cell(static_cast<float>(u), static_cast<float>(v), 3.0);
   matches.resize(1);  // a support corner
@@ -171,8 +171,8 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
   matches.current.depth_m[0] = 2.0;
   matches.current.point[0] = camera_.back_project({75, 110}, 2.0);
   distrust(matches);
-  for (std::size_t s = 0; s < matches.sightings.surfaces.size(); ++s) {
-    const SurfaceCell& cell = matches.sightings.surfaces[s];
+  for (std::size_t s = 0; s < matches.past_observations.surfaces.size(); ++s) {
+    const SurfaceCell& cell = matches.past_observations.surfaces[s];
     if (s < body_count && cell.pixel.x() > 60)
       EXPECT_LT(cell.space_trust, 0.1f) << cell.pixel.transpose();
     else

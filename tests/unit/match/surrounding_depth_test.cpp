@@ -8,7 +8,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint {

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/optional_stages.hpp"
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint {
 namespace {
@@ -49,7 +49,7 @@ class EvidenceMemoryTest : public testing::Test {
       matches_.current.depth_m[i] = features[i].depth_m;
       matches_.current.depth_sigma_m[i] = 0.008;  // one surface: within 0.06 + 5 · 0.008 = 0.1 m
     }
-    matches_.sightings.surfaces = surfaces_;
+    matches_.past_observations.surfaces = surfaces_;
     recall();
     labels_.assign(features.size(), Label{});
     for (std::size_t i = 0; i < features.size(); ++i) {
@@ -278,7 +278,7 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
   std::vector<float> log_odds;
   ring(10, features, log_odds);
   frame(features, log_odds);
-  matches_.sightings.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
+  matches_.past_observations.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
   recall();
   EXPECT_NEAR(remembered_.surface_trust[0], 1.0f - 0.99f * 0.9f, kRounding);
   EXPECT_EQ(remembered_.surface_trust[1], 1.0f);
@@ -297,9 +297,9 @@ TEST_F(EvidenceMemoryTest, WhatHasStoodForSecondsIsSuspectedNoMore) {
     matches_.current.depth_sigma_m[0] = 0.008;
     matches_.was_there[0] = static_cast<std::uint8_t>(was_there);
     matches_.space_trust[0] = trust;
-    matches_.sightings.surfaces = {cell(50, 2.0)};
-    matches_.sightings.surfaces[0].was_there = static_cast<std::uint8_t>(was_there);
-    matches_.sightings.surfaces[0].space_trust = trust;
+    matches_.past_observations.surfaces = {cell(50, 2.0)};
+    matches_.past_observations.surfaces[0].was_there = static_cast<std::uint8_t>(was_there);
+    matches_.past_observations.surfaces[0].space_trust = trust;
     recall();
     EXPECT_NEAR(remembered_.trust[0], expected, kRounding) << was_there << " " << trust;
     EXPECT_NEAR(remembered_.surface_trust[0], expected, kRounding) << was_there << " " << trust;

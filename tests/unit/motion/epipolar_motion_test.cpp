@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/motion/epipolar_motion.hpp"
+#include "stillpoint/motion/epipolar/epipolar_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "motion_scene.hpp"
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint::epipolar_motion_test {
@@ -107,7 +107,7 @@ TEST(EpipolarMotion, RandomScenesWithNoiseAndAMover) {
   EXPECT_GE(within_covariance, 35);  // the covariance is a lower bound
 }
 
-TEST(EpipolarMotion, StandingCameraAndPureRotationAreNamedAndHaveNoTranslation) {
+TEST(EpipolarMotion, StationaryCameraAndPureRotationAreNamedAndHaveNoTranslation) {
   for (const Vector3d& omega : {Vector3d(0, 0, 0), Vector3d(0.03, -0.05, 0.02)}) {
     for (const double noise : {0.0, 0.1}) {
       Random random(5);

@@ -3,7 +3,7 @@
 
 // The solvers against hand-computed cases and OpenCV.
 
-#include "stillpoint/motion/fundamental_eight_point.hpp"
+#include "stillpoint/motion/epipolar/fundamental_eight_point.hpp"
 
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "motion_scene.hpp"
-#include "stillpoint/motion/essential.hpp"
-#include "stillpoint/motion/fundamental_estimator.hpp"
-#include "stillpoint/motion/fundamental_seven_point.hpp"
+#include "stillpoint/motion/epipolar/essential.hpp"
+#include "stillpoint/motion/epipolar/fundamental_estimator.hpp"
+#include "stillpoint/motion/epipolar/fundamental_seven_point.hpp"
 
 namespace stillpoint {
 namespace {

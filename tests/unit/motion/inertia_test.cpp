@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/motion/inertia.hpp"
+#include "stillpoint/motion/rigid/inertia.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 
 #include "motion_scene.hpp"
 #include "stillpoint/motion/candidates.hpp"
-#include "stillpoint/motion/metric_scale.hpp"
+#include "stillpoint/motion/epipolar/metric_scale.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/motion/reprojection_refinement.hpp"
+#include "stillpoint/motion/rigid/reprojection_refinement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/motion/rigid_motion.hpp"
+#include "stillpoint/motion/rigid/rigid_motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
 #include "motion_scene.hpp"
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint::rigid_motion_test {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-#include "stillpoint/motion/support_motion.hpp"
+#include "stillpoint/motion/rigid/support_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "motion_scene.hpp"
-#include "stillpoint/core/optional_stages.hpp"
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint::support_motion_test {
@@ -304,7 +304,7 @@ Matches person_before_a_wall(std::uint64_t seed) {
   return matches;
 }
 
-TEST(SupportMotion, WhoFillsTheViewOfAStandingCameraDoesNotTakeItAlong) {
+TEST(SupportMotion, WhoFillsTheViewOfAStationaryCameraDoesNotTakeItAlong) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Matches matches = person_before_a_wall(seed);
     const Motion motion = estimate(matches, kStood);
@@ -381,9 +381,9 @@ TEST(SupportMotion, TheVelocityDoesNotMatterWhereMuchIsSeen) {
 // ---- Refining against older frames ----
 
 /// A patch that looks alike.
-Sighting sighting(const Vector2d& found, double depth_m) {
-  Sighting seen;
-  seen.state = SightingState::seen;
+Observation observation(const Vector2d& found, double depth_m) {
+  Observation seen;
+  seen.state = ObservationState::seen;
   seen.dissimilarity = 0.01f;
   seen.found = found.cast<float>();
   seen.depth_m = static_cast<float>(depth_m);
@@ -405,7 +405,7 @@ struct LookedBack {
     matches.begin(std::vector<Vector2f>(as_hosts ? corners : 0));
     matches.resize(corners);
     for (std::size_t f = 0; f < 2; ++f) {
-      OlderFrame& frame = matches.sightings.add(corners);
+      OlderFrame& frame = matches.past_observations.add(corners);
       frame.reference_from_current = truth[f] * error;
     }
     for (std::size_t i = 0; i < corners; ++i) {
@@ -413,11 +413,11 @@ struct LookedBack {
       matches.current.set_depth(i, random.uniform(1.0, 4.0), 0.005, camera);
       for (std::size_t f = 0; f < 2; ++f) {
         const Vector3d there = truth[f] * matches.current.point[i];
-        matches.sightings.frames()[f].of_feature[i] = sighting(camera.project(there), there.z());
+        matches.past_observations.frames()[f].of_feature[i] = observation(camera.project(there), there.z());
       }
     }
     motion.status = Status::ok;
-    motion.current_from_reference = matches.sightings.frames()[0].reference_from_current.inverse();
+    motion.current_from_reference = matches.past_observations.frames()[0].reference_from_current.inverse();
   }
 
   void refine(const MotionPrior& prior = {}) {
@@ -432,9 +432,11 @@ TEST(SupportMotion, RefinesAgainstAllOlderFramesAtOnce) {
   LookedBack scene(60);
   scene.refine();
   for (std::size_t f = 0; f < 2; ++f) {
-    EXPECT_LT(test::rotation_error(scene.matches.sightings.frames()[f].reference_from_current, scene.truth[f]), 1e-5);
-    EXPECT_LT(test::translation_error(scene.matches.sightings.frames()[f].reference_from_current, scene.truth[f]),
+    EXPECT_LT(test::rotation_error(scene.matches.past_observations.frames()[f].reference_from_current, scene.truth[f]),
               1e-5);
+    EXPECT_LT(
+        test::translation_error(scene.matches.past_observations.frames()[f].reference_from_current, scene.truth[f]),
+        1e-5);
   }
   EXPECT_LT(test::translation_error(scene.motion.current_from_reference, scene.truth[0].inverse()), 1e-5)
       << "the frame to frame motion follows";
@@ -453,8 +455,8 @@ TEST(SupportMotion, TheVelocityMovesOlderFramesToo) {
   const Pose moved = pulled.motion.current_from_reference * alone.motion.current_from_reference.inverse();
   EXPECT_GT(moved.translation().norm(), 1e-5);
   for (std::size_t f = 0; f < 2; ++f) {
-    const Pose before = alone.matches.sightings.frames()[f].reference_from_current;
-    const Pose after = pulled.matches.sightings.frames()[f].reference_from_current;
+    const Pose before = alone.matches.past_observations.frames()[f].reference_from_current;
+    const Pose after = pulled.matches.past_observations.frames()[f].reference_from_current;
     EXPECT_LT(test::translation_error(after, before * moved.inverse()), 1e-9);
     EXPECT_LT(test::rotation_error(after, before * moved.inverse()), 1e-9);
   }
@@ -467,14 +469,14 @@ TEST(SupportMotion, RefinesByTheFiltersOwnCornersOnly) {
   EXPECT_TRUE(scene.motion.current_from_reference.isApprox(before, 0.0)) << "where the host's texture is, counts not";
 }
 
-TEST(SupportMotion, TooFewSightingsLeaveTheMotionAsItIs) {
+TEST(SupportMotion, TooFewObservationsLeaveTheMotionAsItIs) {
   LookedBack scene(5);
   const Pose before = scene.motion.current_from_reference;
   scene.refine();
   EXPECT_TRUE(scene.motion.current_from_reference.isApprox(before, 0.0));
   LookedBack unlike(60);
-  for (OlderFrame& frame : unlike.matches.sightings.frames())
-    for (Sighting& sighting : frame.of_feature) sighting.dissimilarity = 1.5f;
+  for (OlderFrame& frame : unlike.matches.past_observations.frames())
+    for (Observation& observation : frame.of_feature) observation.dissimilarity = 1.5f;
   unlike.refine();
   EXPECT_TRUE(unlike.motion.current_from_reference.isApprox(before, 0.0)) << "what looks different is not support";
   Observations none;
@@ -495,14 +497,14 @@ struct StoodBack {
     const auto camera = test::test_camera();
     matches.begin(std::vector<Vector2f>());
     matches.resize(100);
-    OlderFrame& frame = matches.sightings.add(100);
+    OlderFrame& frame = matches.past_observations.add(100);
     frame.age = 15;
     for (std::size_t i = 0; i < 100; ++i) {
       matches.current.undistorted[i] = {random.uniform(80, 560), random.uniform(80, 400)};
       matches.current.set_depth(i, random.uniform(1.0, 4.0), 0.005, camera);
       const Vector3d there = since_then.inverse() * matches.current.point[i];
       const Vector2d found = camera.project(there) + noise_px * Vector2d(random.gaussian(), random.gaussian());
-      frame.of_feature[i] = sighting(found, there.z());
+      frame.of_feature[i] = observation(found, there.z());
     }
     motion.status = Status::ok;
     motion.standing = true;
@@ -517,12 +519,12 @@ struct StoodBack {
   }
 };
 
-TEST(SupportMotion, RefiningLeavesAStandingCameraAlone) {
+TEST(SupportMotion, RefiningLeavesAStationaryCameraAlone) {
   StoodBack scene(Pose::Identity());
   scene.refine();
   EXPECT_TRUE(scene.motion.standing);
   EXPECT_TRUE(is_identity(scene.motion.current_from_reference));
-  EXPECT_TRUE(is_identity(scene.matches.sightings.frames()[0].reference_from_current));
+  EXPECT_TRUE(is_identity(scene.matches.past_observations.frames()[0].reference_from_current));
   EXPECT_EQ(scene.motion.covariance, Matrix6d(1e-8 * Matrix6d::Identity()));
   StoodBack estimated(Pose::Identity());
   estimated.motion.standing = false;
@@ -536,7 +538,7 @@ TEST(SupportMotion, ACreepEndsTheStandWhereAnOlderFrameShowsIt) {
   StoodBack scene(creep);
   scene.refine();
   EXPECT_FALSE(scene.motion.standing);
-  const Pose& found = scene.matches.sightings.frames()[0].reference_from_current;
+  const Pose& found = scene.matches.past_observations.frames()[0].reference_from_current;
   EXPECT_LT(test::rotation_error(found, creep.inverse()), 0.5 * kCreep_rad);
   EXPECT_LT(test::translation_error(found, creep.inverse()), 1e-3);
   EXPECT_LT(test::rotation_error(scene.motion.current_from_reference, creep), 0.5 * kCreep_rad);

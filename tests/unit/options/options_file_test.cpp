@@ -132,7 +132,7 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(OlderFrameChoice()), field_count<OlderFrameChoice>());
   EXPECT_EQ(visited(PlaceTest()), field_count<PlaceTest>() - 1) << "the guard is none";
   EXPECT_EQ(visited(CornerTracker()), field_count<CornerTracker::Options>());
-  EXPECT_EQ(visited(LookBack()), field_count<LookBack::Options>() + 1) << "surfaces";
+  EXPECT_EQ(visited(PastReprojection()), field_count<PastReprojection::Options>() + 1) << "surfaces";
   EXPECT_EQ(visited(SurfaceSearch()), field_count<SurfaceSearch>() - 1) << "the guard is none";
   EXPECT_EQ(visited(EpipolarMotion()), field_count<EpipolarMotion::Options>());
   EXPECT_EQ(visited(RigidMotion()), field_count<RigidMotion::Options>());
@@ -141,7 +141,7 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(SupportMotion()), field_count<SupportMotion::Options>() + 2) << "constraints, inertia";
   EXPECT_EQ(visited(OffsetScore()), field_count<OffsetScore::Options>());
   EXPECT_EQ(visited(SampsonScore()), field_count<SampsonScore::Options>());
-  EXPECT_EQ(visited(SightingScore()), field_count<SightingScore::Options>());
+  EXPECT_EQ(visited(ReprojectionScore()), field_count<ReprojectionScore::Options>());
   EXPECT_EQ(visited(MeanGate()), field_count<MeanGate::Options>());
   EXPECT_EQ(visited(TailGate()), field_count<TailGate::Options>());
   EXPECT_EQ(visited(RegionClusters()), field_count<RegionClusters::Options>());

@@ -72,8 +72,8 @@ TYPED_TEST(AllocationTest, NothingIsAllocatedInSteadyState) {
   EXPECT_EQ(after_warm_up, 0u);
 }
 
-// The filter that looks back fills a history, and its tables grow with corners and key points: the fullest frames
-// first, then others with fewer key points, some outside of the image, and some without any depth.
+// The filter that looks back fills a history, and its tables grow with corners and keypoints: the fullest frames
+// first, then others with fewer keypoints, some outside of the image, and some without any depth.
 TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
   mock::Clip clip(3, 40);
   FrameFilter<DefaultPolicies> filter(mock::Clip::camera());
@@ -93,7 +93,7 @@ TEST(Allocation, DefaultPoliciesAllocateNothingOnceTheFullestFrameHasBeenSeen) {
     if (f >= kWarmUp) after_warm_up += allocated;
   }
   EXPECT_GE(judged_frames, 35u) << "a filter that judges nothing proves nothing";
-  EXPECT_FALSE(filter.prior.things().empty());
+  EXPECT_FALSE(filter.prior.objects().empty());
   EXPECT_EQ(after_warm_up, 0u);
 }
 

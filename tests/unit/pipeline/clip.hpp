@@ -19,7 +19,7 @@ namespace stillpoint::mock {
 
 /// Three textured walls at 2, 1.5 and 1 m, one below the other (a single plane would not determine F), before a camera
 /// that moves sideways by 2 cm; within a box something nearer moves the other way.
-/// Every frame has the same number of key points.
+/// Every frame has the same number of keypoints.
 struct Clip {
   struct Frame {
     cv::Mat gray, depth;
@@ -85,10 +85,10 @@ struct Answer {
     append_matrix(result.motion().covariance);
     for (std::size_t i = 0; i < result.size(); ++i) {
       append(result.keep()[i]);
-      append(result.verdict(i).verdict);
-      append(result.verdict(i).reason);
-      append(result.verdict(i).cluster);
-      append(result.verdict(i).probability);
+      append(result.label(i).verdict);
+      append(result.label(i).reason);
+      append(result.label(i).cluster);
+      append(result.label(i).probability);
       append(result.score(i).value);
       append(result.depth_m(i));
     }

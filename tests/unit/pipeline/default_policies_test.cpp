@@ -28,8 +28,8 @@ void expect_sound(const FrameResult& result, std::size_t keypoints) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < keypoints; ++i) {
     kept += result.keep()[i];
-    EXPECT_EQ(result.keep()[i] == 1, result.verdict(i).keep);
-    EXPECT_TRUE(std::isfinite(result.verdict(i).log_odds));
+    EXPECT_EQ(result.keep()[i] == 1, result.label(i).keep);
+    EXPECT_TRUE(std::isfinite(result.label(i).log_odds));
     EXPECT_TRUE(std::isfinite(result.depth_m(i)));
   }
   EXPECT_EQ(result.kept_count(), kept);
@@ -188,7 +188,7 @@ TEST_F(DefaultFilter, KeypointsOutsideAndNowhereAreAnswered) {
     expect_sound(result, count(f));
     for (std::size_t i = 0; i < odd.size(); ++i) EXPECT_EQ(result.depth_m(i), 0.0) << i;
     if (!judged(result.status())) continue;
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(result.verdict(i).reason, Reason::outside_image) << i;
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(result.label(i).reason, Reason::outside_image) << i;
   }
 }
 

@@ -20,7 +20,7 @@
 #include "stillpoint/policies.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
-#include "stillpoint/verdict/output_modes.hpp"
+#include "stillpoint/verdict/keep_flags.hpp"
 
 namespace stillpoint::default_scenes_test {
 namespace {
@@ -176,7 +176,7 @@ TEST(DefaultScenes, ABoxThatCreepsIsFound) {
 
 // Someone who sways fills more than three quarters of the picture, and no detector says so: what is left of the room at
 // rest tells that the camera stands. The room has a few features only; they are too few to be counted.
-TEST(DefaultScenes, WhoFillsTheViewOfAStandingCameraIsFound) {
+TEST(DefaultScenes, WhoFillsTheViewOfAStationaryCameraIsFound) {
 #ifdef __SANITIZE_ADDRESS__
   constexpr int kFrames = 31;  // ten times as slow there, and not what it looks for
 #else
@@ -212,8 +212,8 @@ TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
   EXPECT_LE(outcome.worst_position_m, 0.01);
 }
 
-TEST(DefaultScenes, AStandingCameraDoesNoHarm) {
-  const synthetic::Scene scene = synthetic::standing_camera(small(40));
+TEST(DefaultScenes, AStationaryCameraDoesNoHarm) {
+  const synthetic::Scene scene = synthetic::stationary_camera(small(40));
   FrameFilter<> filter(scene.camera);
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The code of the documents at work. That each block of theirs compiles, as it stands there, is tested by
-// tests/documents.
+// The code of docs/ at work; that of README.md is part of examples/. That each block compiles, as it stands there, is
+// tested by tests/documents.
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@
 
 // clang-format off
 #include <stillpoint/stillpoint.hpp>
-#include <stillpoint/prior/async_detector.hpp>
+#include <stillpoint/detectors/async_detector.hpp>
 #include <stillpoint/stereo/rectification.hpp>
 #include <stillpoint/stereo/stereo_depth.hpp>
 // clang-format on
 
 namespace {
 
-struct StandingCamera {
+struct StationaryCamera {
   template <class Camera>
   stillpoint::Motion estimate(const stillpoint::Observations& observations, const Camera&,
                               const stillpoint::MotionPrior&, stillpoint::Workspace&) const {
@@ -31,12 +31,8 @@ struct StandingCamera {
 };
 
 struct TripodPolicies : stillpoint::DefaultPolicies {
-  using EgoMotion = StandingCamera;
+  using EgoMotion = StationaryCamera;
 };
-
-// clang-format off
-struct MyPolicies : stillpoint::DefaultPolicies { using EgoMotion = stillpoint::RigidMotion; };
-// clang-format on
 
 /// A textured wall two metres away.
 struct Wall {
@@ -75,23 +71,6 @@ const auto& result = filter.filter_frame({rectified_left, depth, time}, keypoint
   EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
 }
 
-TEST(Documents, TheSnippetOfTheReadmeRuns) {
-  const stillpoint::Camera& camera = kCamera;
-  Wall wall;
-  const cv::Mat &gray = wall.gray, &depth = wall.depth;
-  std::vector<cv::KeyPoint>& keypoints = wall.keypoints;
-  cv::Mat descriptors(static_cast<int>(keypoints.size()), 32, CV_8UC1, cv::Scalar(0));
-  std::vector<float> depths(keypoints.size(), 2.0f);
-  const double time = 1.0;
-  // clang-format off
-stillpoint::FrameFilter<> filter(camera);                             // DefaultPolicies
-const auto& result = filter.filter_frame({gray, stillpoint::DepthView::millimetres(depth), time}, keypoints);
-stillpoint::compact(result.keep(), keypoints, descriptors, depths);   // parallel arrays stay aligned
-  // clang-format on
-  EXPECT_EQ(result.status(), stillpoint::Status::first_frame);
-  EXPECT_EQ(keypoints.size(), depths.size());
-}
-
 TEST(Documents, TheTripodsPoliciesRun) {
   stillpoint::FrameFilter<TripodPolicies> filter(kCamera);
   const Wall wall;
@@ -102,15 +81,6 @@ TEST(Documents, TheTripodsPoliciesRun) {
     EXPECT_EQ(result.status(), stillpoint::Status::ok);
     EXPECT_EQ(result.kept_count(), wall.keypoints.size()) << "nothing moves";
   }
-}
-
-TEST(Documents, TheReplacedStageOfTheReadmeRuns) {
-  stillpoint::FrameFilter<MyPolicies> filter(kCamera);
-  const Wall wall;
-  filter.filter_frame({wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.0}, wall.keypoints);
-  const auto& result =
-      filter.filter_frame({wall.gray, stillpoint::DepthView::millimetres(wall.depth), 1.03}, wall.keypoints);
-  EXPECT_TRUE(stillpoint::judged(result.status())) << to_string(result.status());
 }
 
 struct MyDetector {
@@ -130,7 +100,7 @@ TEST(Documents, TheDetectorsLoopRuns) {
   // clang-format off
 filter.prior.detections = detections;   // taken with the next frame; write nothing where there is no new answer
 filter.prior.detected(timestamp_s, detections);
-stillpoint::AsyncDetector<MyDetector> detector(MyDetector{});   // stillpoint/prior/async_detector.hpp
+stillpoint::AsyncDetector<MyDetector> detector(MyDetector{});   // stillpoint/detectors/async_detector.hpp
 stillpoint::DetectorAnswer answer;
   for (int i = 0; i < 3; ++i) {
   const double time = 1.0 + 0.03 * i;
@@ -141,7 +111,7 @@ const auto& result = filter.filter_frame({gray, stillpoint::DepthView::millimetr
     EXPECT_EQ(result.size(), keypoints.size());
     detector.wait();
   }
-  EXPECT_EQ(filter.prior.things().size(), 1u) << "one thing, seen in every frame";
+  EXPECT_EQ(filter.prior.objects().size(), 1u) << "one thing, seen in every frame";
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ class FrameFilterTest : public testing::Test {
     EXPECT_EQ(result.keep_floor_kept(), 0u);
     for (std::size_t i = 0; i < result.size(); ++i) {
       EXPECT_EQ(result.keep()[i], 1);
-      EXPECT_TRUE(result.verdict(i).keep);
-      EXPECT_EQ(result.verdict(i).reason, Reason::not_judged);
-      EXPECT_EQ(result.verdict(i).cluster, Label::kNoCluster);
+      EXPECT_TRUE(result.label(i).keep);
+      EXPECT_EQ(result.label(i).reason, Reason::not_judged);
+      EXPECT_EQ(result.label(i).cluster, Label::kNoCluster);
       EXPECT_FALSE(result.score(i).scored());
       EXPECT_EQ(result.depth_m(i), 0.0);
     }
@@ -88,10 +88,10 @@ TEST_F(FrameFilterTest, HandsTheAnswersOfTheStagesOn) {
   for (std::size_t i = 0; i < 5; ++i) {
     const bool kept = i % 2 == 0;
     EXPECT_EQ(result.keep()[i], kept ? 1 : 0);
-    EXPECT_EQ(result.verdict(i).keep, kept);
-    EXPECT_EQ(result.verdict(i).reason, kept ? Reason::static_cluster : Reason::moving_cluster);
-    EXPECT_EQ(result.verdict(i).cluster, static_cast<int>(i));
-    EXPECT_EQ(result.verdict(i).probability, 0.5f) << "the gate's threshold went to the classifier";
+    EXPECT_EQ(result.label(i).keep, kept);
+    EXPECT_EQ(result.label(i).reason, kept ? Reason::static_cluster : Reason::moving_cluster);
+    EXPECT_EQ(result.label(i).cluster, static_cast<int>(i));
+    EXPECT_EQ(result.label(i).probability, 0.5f) << "the gate's threshold went to the classifier";
     EXPECT_EQ(result.score(i).value, static_cast<float>(i));
     EXPECT_EQ(result.depth_m(i), 2.0);  // 10000 / 5000
   }
@@ -171,7 +171,7 @@ TEST_F(FrameFilterTest, AFrameWithoutKeypointsBecomesTheReference) {
   EXPECT_TRUE(log_.calls.empty());
   expect_judged(at(1.3), 1.2);
   EXPECT_EQ(filter_.matcher.reference_gray, 55);
-  // The first frame is the first frame, with key points or without.
+  // The first frame is the first frame, with keypoints or without.
   filter_.reset();
   EXPECT_EQ(filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.4), none).status(), Status::first_frame);
 }
@@ -214,8 +214,8 @@ TEST_F(FrameFilterTest, SaysWhereTheKeepFloorActed) {
   EXPECT_EQ(result.keep_floor_kept(), 1u);
   EXPECT_EQ(result.kept_count(), 4u);
   EXPECT_EQ(result.keep()[1], 1);
-  EXPECT_EQ(result.verdict(1).reason, Reason::keep_floor);
-  EXPECT_EQ(result.verdict(1).verdict, Verdict::dynamic);
+  EXPECT_EQ(result.label(1).reason, Reason::keep_floor);
+  EXPECT_EQ(result.label(1).verdict, Verdict::dynamic);
   EXPECT_EQ(result.keep()[3], 0);
 }
 
@@ -451,7 +451,7 @@ TEST_F(FrameFilterTest, TheStandOfTheCameraIsTheLastMotionsUntilReset) {
   EXPECT_TRUE(filter_.ego_motion.asked.standing);
 }
 
-// ---- Key points and masks ----
+// ---- Keypoints and masks ----
 
 TEST_F(FrameFilterTest, TakesAnyContiguousRangeOfKeypoints) {
   at(1.0);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/depth_lookup.hpp"
-#include "stillpoint/core/depth_noise.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/filter_frame.hpp"
 
 namespace stillpoint::mock {

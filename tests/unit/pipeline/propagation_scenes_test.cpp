@@ -72,7 +72,7 @@ void run(int first_counted, Coverage& carried, Answer&& answer) {
     answer(f, frame.timestamp_s, truth, filter.prior);
     filter.filter_frame(frame.view(), pixels);
     if (f >= first_counted)
-      carried.add(truth, filter.prior.things(), [](const CarriedDetection& thing) { return thing.detection.box; });
+      carried.add(truth, filter.prior.objects(), [](const CarriedDetection& thing) { return thing.detection.box; });
   }
   ASSERT_GE(carried.overlaps.size(), 30u);
 }

@@ -69,7 +69,7 @@ class ProvidedTracksOfClip : public testing::Test {
   }
   const std::vector<Vector2f>& keypoints(std::size_t f) const { return clip_.frames[f].keypoints; }
 
-  /// Share of the mover's key points that a frame drops, and of all others.
+  /// Share of the mover's keypoints that a frame drops, and of all others.
   double dropped(const FrameResult& result, std::size_t f, bool of_mover) const {
     int count = 0, dropped = 0;
     for (std::size_t i = 0; i < keypoints(f).size(); ++i) {

@@ -30,7 +30,7 @@ struct Outcome {
 };
 
 /// @param filter_frame  `const FrameResult& (const SyntheticFrame&, std::vector<Vector2f>& pixels)`: fills in where its
-///                      key points are
+///                      keypoints are
 template <class FilterFrame>
 Outcome run(const synthetic::Scene& scene, FilterFrame filter_frame) {
   SyntheticSequence sequence(scene);

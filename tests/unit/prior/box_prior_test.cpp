@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint::box_prior_test {
 namespace {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint {
 namespace {

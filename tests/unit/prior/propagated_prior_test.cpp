@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/optional_stages.hpp"
-#include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint {
@@ -25,10 +25,10 @@ static_assert(is_prior<PropagatedPrior>::value && observes<PropagatedPrior, Came
 static_assert(resets<PropagatedPrior>::value);
 static_assert(!observes<BoxPrior, Camera>::value && !resets<BoxPrior>::value);
 
-constexpr double kFrame_s = 0.1, kThing_m = 1.5, kWall_m = 3.0, kFocal_px = 100.0;
+constexpr double kFrame_s = 0.1, kObject_m = 1.5, kWall_m = 3.0, kFocal_px = 100.0;
 
-/// A thing 40 × 60 pixels large at 1.5 m before a wall at 3 m, seen by a camera of 320 × 240 pixels ten times a second.
-/// Features lie on a grid of 6 pixels.
+/// A thing 40 × 60 pixels large at 1.5 m before a wall at 3 m, seen by a camera of 320 × 240 pixels ten times per
+/// second. Features lie on a grid of 6 pixels.
 class PropagatedPriorTest : public testing::Test {
  protected:
   Detection seen(const Box& box, float confidence = 0.8f) const { return {box, Mobility::dynamic, confidence}; }
@@ -52,7 +52,7 @@ class PropagatedPriorTest : public testing::Test {
     cv::Mat gray(240, 320, CV_8UC1, cv::Scalar(0)), depth(240, 320, CV_32FC1, cv::Scalar(kWall_m));
     const cv::Rect painted(cv::Point(static_cast<int>(truth_.x), static_cast<int>(truth_.y)),
                            cv::Size(static_cast<int>(truth_.width), static_cast<int>(truth_.height)));
-    depth(painted & cv::Rect(0, 0, 320, 240)).setTo(thing_m_);
+    depth(painted & cv::Rect(0, 0, 320, 240)).setTo(object_m_);
     if (occluder_m_ > 0) depth.setTo(occluder_m_);
     Regions regions;
     prior_.regions(FrameView(gray, DepthView::tum(depth), now_s()), regions);
@@ -75,8 +75,8 @@ class PropagatedPriorTest : public testing::Test {
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const bool on_thing = truth_.contains(pixels[i]);
       matches.reference.pixel[i] = pixels[i] - (on_thing ? change.thing : change.wall);
-      matches.current.depth_m[i] = on_thing ? thing_m_ : kWall_m;
-      matches.reference.depth_m[i] = on_thing ? thing_before_m_ : kWall_m;
+      matches.current.depth_m[i] = on_thing ? object_m_ : kWall_m;
+      matches.reference.depth_m[i] = on_thing ? object_before_m_ : kWall_m;
       matches.state[i] = MatchState::matched;
     }
     matches.state[0] = MatchState::lost;
@@ -98,15 +98,15 @@ class PropagatedPriorTest : public testing::Test {
     EXPECT_NEAR(box.height, expected.height, tolerance_px);
   }
   const CarriedDetection& only_thing() const {
-    EXPECT_EQ(prior_.things().size(), 1u);
-    return prior_.things()[0];
+    EXPECT_EQ(prior_.objects().size(), 1u);
+    return prior_.objects()[0];
   }
 
   Camera camera_ = Camera(kFocal_px, kFocal_px, 159.5, 119.5, 320, 240);
   PropagatedPrior prior_;
   int frame_ = 0;
   Box truth_ = {100, 80, 40, 60};
-  double thing_m_ = kThing_m, thing_before_m_ = kThing_m, occluder_m_ = 0;
+  double object_m_ = kObject_m, object_before_m_ = kObject_m, occluder_m_ = 0;
 };
 
 TEST_F(PropagatedPriorTest, WhatIsHandedOverIsOfTheComingFrameAsItIs) {
@@ -129,7 +129,7 @@ TEST_F(PropagatedPriorTest, AThingIsCarriedByTheFeaturesOnIt) {
   prior_.detections = {seen(truth_)};
   const Change change{{3, -1}, {-2, 0}};
   next(change);
-  truth_ = prior_.things()[0].detection.box;  // the box was that of the frame before it moved
+  truth_ = prior_.objects()[0].detection.box;  // the box was that of the frame before it moved
   for (int i = 0; i < 8; ++i) {
     const Regions regions = next(change);
     ASSERT_EQ(regions.detections.size(), 1u);
@@ -218,8 +218,8 @@ TEST_F(PropagatedPriorTest, WithoutFeaturesTwoAnswersTellTheVelocity) {
 TEST_F(PropagatedPriorTest, WhatComesNearerGrows) {
   prior_.detections = {seen(truth_)};
   next();
-  thing_before_m_ = 1.5;
-  thing_m_ = 1.45;
+  object_before_m_ = 1.5;
+  object_m_ = 1.45;
   next();
   const float grown = 1.5f / 1.45f;
   expect_box(only_thing().detection.box, {120 - 20 * grown, 110 - 30 * grown, 40 * grown, 60 * grown});
@@ -256,7 +256,7 @@ TEST_F(PropagatedPriorTest, WhatIsNotSeenForLongIsForgotten) {
   next();
   for (int i = 1; i <= 4; ++i) EXPECT_EQ(next().detections.size(), 1u) << i;
   EXPECT_TRUE(next().detections.empty());
-  EXPECT_TRUE(prior_.things().empty());
+  EXPECT_TRUE(prior_.objects().empty());
 }
 
 TEST_F(PropagatedPriorTest, WhatIsMissedTooOftenIsForgotten) {
@@ -281,12 +281,12 @@ TEST_F(PropagatedPriorTest, OneOfTwoIsMissed) {
   ASSERT_EQ(regions.detections.size(), 2u);
   expect_box(regions.detections[0].box, other);  // what was seen comes first
   expect_grown_from_truth(regions.detections[1].box, kFrame_s);
-  ASSERT_EQ(prior_.things().size(), 2u);
-  EXPECT_EQ(prior_.things()[0].missed, 1);
-  EXPECT_EQ(prior_.things()[1].missed, 0);
+  ASSERT_EQ(prior_.objects().size(), 2u);
+  EXPECT_EQ(prior_.objects()[0].missed, 1);
+  EXPECT_EQ(prior_.objects()[1].missed, 0);
   prior_.detections = {seen(truth_), seen(other)};
   EXPECT_EQ(next().detections.size(), 2u) << "seen again, not seen anew";
-  EXPECT_EQ(prior_.things()[0].missed, 0);
+  EXPECT_EQ(prior_.objects()[0].missed, 0);
 }
 
 TEST_F(PropagatedPriorTest, ADetectionRefreshesTheThingThatItOverlapsMost) {
@@ -297,9 +297,9 @@ TEST_F(PropagatedPriorTest, ADetectionRefreshesTheThingThatItOverlapsMost) {
   const Box first = {truth_.x + 2, truth_.y, 40, 60}, second = {beside.x + 2, beside.y, 40, 60};
   prior_.detections = {seen(second), seen(first)};
   next();
-  ASSERT_EQ(prior_.things().size(), 2u);
-  expect_box(prior_.things()[0].detection.box, first);
-  expect_box(prior_.things()[1].detection.box, second);
+  ASSERT_EQ(prior_.objects().size(), 2u);
+  expect_box(prior_.objects()[0].detection.box, first);
+  expect_box(prior_.objects()[1].detection.box, second);
 }
 
 TEST_F(PropagatedPriorTest, ADetectionElsewhereOrOfAnotherKindIsANewThing) {
@@ -318,7 +318,7 @@ TEST_F(PropagatedPriorTest, ALateAnswerIsCarriedFromItsFrame) {
   prior_.detected(then_s + 0.02, {seen(then)});  // clocks differ a little: the nearest frame is meant
   expect_at_truth(only_thing().detection.box);
   EXPECT_EQ(only_thing().seen_s, then_s);
-  EXPECT_NEAR(only_thing().depth_m(), kThing_m, 1e-6) << "from the coarse depth of that frame";
+  EXPECT_NEAR(only_thing().depth_m(), kObject_m, 1e-6) << "from the coarse depth of that frame";
   const Regions regions = next(change);
   ASSERT_EQ(regions.detections.size(), 1u);
   expect_grown_from_truth(regions.detections[0].box, now_s() - then_s);
@@ -358,7 +358,7 @@ TEST_F(PropagatedPriorTest, ALateAnswersDepthIsThatOfItsFrame) {
   next();
   next();
   prior_.detected(time_s(2), {seen(truth_)});
-  EXPECT_NEAR(only_thing().depth_m(), kThing_m, 1e-6);
+  EXPECT_NEAR(only_thing().depth_m(), kObject_m, 1e-6);
 }
 
 TEST_F(PropagatedPriorTest, ALateAnswerThatIsDoubtedIsNone) {
@@ -366,7 +366,7 @@ TEST_F(PropagatedPriorTest, ALateAnswerThatIsDoubtedIsNone) {
   next();
   next();
   prior_.detected(now_s(), {seen(truth_, 0.4f)});
-  EXPECT_TRUE(prior_.things().empty());
+  EXPECT_TRUE(prior_.objects().empty());
 }
 
 // The pipeline asks for regions from its second frame on, and detectors begin with the first.
@@ -384,12 +384,12 @@ TEST_F(PropagatedPriorTest, AnswersThatCameTooLateAreIgnored) {
   prior_.detected(time_s(2), {seen({200, 20, 40, 60})});
   EXPECT_EQ(only_thing().missed, 0);
   prior_.reset();
-  for (std::size_t i = 0; i < PictureMotions::kCapacity + 4; ++i) next();
+  for (std::size_t i = 0; i < ImageMotions::kCapacity + 4; ++i) next();
   prior_.carrying.longest_s = 1e9;
   prior_.detected(time_s(6), {seen(truth_)});
-  EXPECT_TRUE(prior_.things().empty()) << "nobody remembers that frame";
+  EXPECT_TRUE(prior_.objects().empty()) << "nobody remembers that frame";
   prior_.detected(std::numeric_limits<double>::quiet_NaN(), {seen(truth_)});
-  EXPECT_TRUE(prior_.things().empty());
+  EXPECT_TRUE(prior_.objects().empty());
 }
 
 TEST_F(PropagatedPriorTest, AMaskGoesAlong) {
@@ -400,8 +400,8 @@ TEST_F(PropagatedPriorTest, AMaskGoesAlong) {
   const Regions regions = (next({{6, 0}, {0, 0}}), next({{6, 0}, {0, 0}}));
   ASSERT_EQ(regions.detections.size(), 1u);
   EXPECT_EQ(regions.detections[0].mask, masked.mask);
-  EXPECT_TRUE(regions.detections[0].holds({truth_.x + 10, truth_.y + 30}, kThing_m));
-  EXPECT_FALSE(regions.detections[0].holds({truth_.x + 30, truth_.y + 30}, kThing_m));
+  EXPECT_TRUE(regions.detections[0].holds({truth_.x + 10, truth_.y + 30}, kObject_m));
+  EXPECT_FALSE(regions.detections[0].holds({truth_.x + 30, truth_.y + 30}, kObject_m));
 }
 
 TEST_F(PropagatedPriorTest, DepthSeparatesACarriedThingFromWhatIsBehindAndBefore) {
@@ -409,7 +409,7 @@ TEST_F(PropagatedPriorTest, DepthSeparatesACarriedThingFromWhatIsBehindAndBefore
   next();
   const Regions regions = next({{3, 0}, {0, 0}});
   EXPECT_FALSE(regions.detections.at(0).holds({truth_.x + 20, truth_.y + 30}, kWall_m));
-  EXPECT_TRUE(regions.detections.at(0).holds({truth_.x + 20, truth_.y + 30}, kThing_m));
+  EXPECT_TRUE(regions.detections.at(0).holds({truth_.x + 20, truth_.y + 30}, kObject_m));
   occluder_m_ = 0.6;
   const Regions hidden = next();
   EXPECT_NEAR(hidden.detections.at(0).nearest_m, 1.4, 1e-6) << "something passes before it: its depth stays";
@@ -447,14 +447,14 @@ TEST_F(PropagatedPriorTest, WhatIsNoDetectionIsNotCarried) {
   EXPECT_EQ(next().detections.size(), 1u);
   next();
   prior_.detected(now_s(), {seen({0, kNaN, 10, 10}), seen(truth_)});
-  EXPECT_EQ(prior_.things().size(), 1u);
+  EXPECT_EQ(prior_.objects().size(), 1u);
 }
 
 TEST_F(PropagatedPriorTest, ResetForgetsThingsAndFrames) {
   prior_.detections = {seen(truth_)};
   next();
   prior_.reset();
-  EXPECT_TRUE(prior_.things().empty());
+  EXPECT_TRUE(prior_.objects().empty());
   prior_.detections = {seen(truth_)};
   prior_.reset();
   EXPECT_EQ(prior_.detections.size(), 1u) << "of the coming frame";

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 #include "unit/observations_of.hpp"
 
 namespace stillpoint {

@@ -105,7 +105,7 @@ synthetic::SceneOptions small_scene() {
   return options;
 }
 
-// At key points, which is where the filter asks. Were errors of disparity normal with the claimed σ, 68.3 % of them
+// At keypoints, which is where the filter asks. Were errors of disparity normal with the claimed σ, 68.3 % of them
 // would lie within σ and 95.4 % within 2 σ; a claim may be higher than the truth (lenses and calibrations of real
 // cameras add to it), never lower, and not three times as high. Mistaken matches are another matter: no noise model
 // covers them, the filter's heavy tails do.

@@ -345,7 +345,7 @@ TEST(SyntheticSequence, EqualSeedsGiveEqualBytesInAnyOrder) {
 }
 
 TEST(SyntheticSequence, NoiseDiffersFromFrameToFrame) {
-  SyntheticSequence sequence(standing_camera(small()));
+  SyntheticSequence sequence(stationary_camera(small()));
   SyntheticFrame first, second;
   sequence.render(0, first);
   sequence.render(1, second);

@@ -132,8 +132,8 @@ TEST(Scenes, PureRotationTurnsWithoutMoving) {
   EXPECT_EQ(pure_rotation(small(), true).movers.size(), 2u);
 }
 
-TEST(Scenes, StandingCameraStands) {
-  const Scene scene = standing_camera(small());
+TEST(Scenes, StationaryCameraStands) {
+  const Scene scene = stationary_camera(small());
   EXPECT_EQ(scene.camera_path.world_from_camera(0).matrix(), scene.camera_path.world_from_camera(3.3).matrix());
   EXPECT_EQ(scene.movers.size(), 2u);
 }

@@ -9,8 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "stillpoint/core/policy_traits.hpp"
 #include "stillpoint/core/random.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint {
 namespace {

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What older frames show where a standing feature should be.
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+enum class ObservationState : std::uint8_t {
+  none,      ///< not looked for: no depth, or it would have been outside the image
+  occluded,  ///< something nearer stood before it: says nothing
+  seen,      ///< its place could be compared
+};
+
+/// What a view of the past shows in the place of a point.
+enum class Space {
+  unknown,   ///< out of view, without depth, or hidden
+  occupied,  ///< a surface was there
+  free,      ///< the view saw through to something farther
+};
+
+/// One feature in one older frame, looked for where a standing point would have been.
+struct Observation {
+  ObservationState state = ObservationState::none;
+  /// 1 − correlation of the most alike patch near by: 0 alike to 2 inverted; NaN: no patch could be compared.
+  float dissimilarity = std::numeric_limits<float>::quiet_NaN();
+  Vector2f found = Vector2f::Zero();  ///< undistorted pixel of that patch
+  float depth_m = 0;                  ///< measured where the point should be, metres, 0 none
+  float depth_sigma_m = 0;
+  float offset_px = 0;  ///< of that patch from where a standing point should be, in the image as it is
+};
+
+/// A piece of smooth surface of the current frame, a cell of a coarse grid. It counts area where there are no corners.
+struct SurfaceCell {
+  Vector2f pixel = Vector2f::Zero();   ///< in the current image
+  Vector3d point = Vector3d::Zero();   ///< in the current camera, metres
+  Vector3d normal = Vector3d::Zero();  ///< unit length, in the current camera
+  double depth_sigma_m = 0;
+  float space_trust = 1.0f;               ///< 0 to 1, as `Matches::space_trust`
+  Space seen = Space::unknown;            ///< what the view that was asked last saw in its place
+  std::uint8_t was_there = 0;             ///< as `Matches::was_there`
+  Vector2f predicted = Vector2f::Zero();  ///< where it was in the reference image if it stands still, pixels
+};
+
+/// The surface that an older frame shows in the place of a cell.
+struct SurfaceObservation {
+  Vector3d target = Vector3d::Zero();  ///< in the older camera, metres
+  double depth_sigma_m = 0;            ///< 0: nothing to be seen there
+};
+
+/// Everything that was looked for in one older frame.
+struct OlderFrame {
+  std::size_t age = 1;                             ///< frames back: 1 is the last
+  Pose reference_from_current = Pose::Identity();  ///< that was assumed when looking, or a better one since
+  double elapsed_s = 0;                            ///< from that frame to the current one
+  std::vector<Observation> of_feature;
+  std::vector<SurfaceObservation> of_surface;
+};
+
+/// One entry for each older frame that was looked at, the nearest in time first. Memory is kept from frame to frame.
+class PastObservations {
+ public:
+  std::vector<SurfaceCell> surfaces;
+  /// What was looked for: the feature's point in the current camera, metres; for a feature without a depth a supposed
+  /// one on the surface beside it, NaN where there is none.
+  std::vector<Vector3d> point;
+  std::vector<double> inverse_depth_sigma;  ///< of 1 / point.z, per metre
+  std::vector<std::uint8_t> seen_through;   ///< how many views of the past seconds saw something farther in its place
+  /// The features inside the image, neighbours near to each other: looked for in this order, what one reads of an image
+  /// is still at hand for the next.
+  std::vector<std::uint32_t> order;
+
+  /// Whether a feature's depth is a guess between the surfaces beside it: not measured, not borrowed, not bridged.
+  bool is_guess(std::size_t i) const noexcept {
+    constexpr double kKnown = 0.05;  // spread of the inverse depth, of itself
+    return !(inverse_depth_sigma[i] * point[i].z() < kKnown);
+  }
+
+  span<OlderFrame> frames() noexcept { return {frames_.data(), count_}; }
+  span<const OlderFrame> frames() const noexcept { return {frames_.data(), count_}; }
+
+  void clear() noexcept {
+    surfaces.clear();
+    point.clear();
+    inverse_depth_sigma.clear();
+    seen_through.clear();
+    order.clear();
+    count_ = 0;
+  }
+
+  OlderFrame& add(std::size_t feature_count) {
+    if (count_ == frames_.size()) frames_.emplace_back();
+    OlderFrame& frame = frames_[count_++];
+    frame.of_feature.assign(feature_count, Observation{});
+    point.resize(feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    inverse_depth_sigma.resize(feature_count, std::numeric_limits<double>::infinity());
+    seen_through.resize(feature_count, 0);
+    frame.of_surface.clear();
+    return frame;
+  }
+
+ private:
+  std::vector<OlderFrame> frames_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace stillpoint

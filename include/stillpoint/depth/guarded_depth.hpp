@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Depth that is trusted only where its neighbours agree.
+
+#include <cstdint>
+#include <limits>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+
+namespace stillpoint {
+
+/// Depth at the rounded pixel, if its 3 × 3 neighbourhood is one surface: at a hole or a jump there is none, and
+/// nothing is interpolated across an edge.
+struct GuardedDepth {
+  // No options in files.
+  int fewest_neighbours = 6;  ///< of the nine pixels that must have a depth
+  double jump_m = 0.03;       ///< more difference within the neighbourhood is an edge …
+  double jump_sigmas = 7.0;   ///< … with this many standard deviations of the depth: the extremes of nine and a slope
+
+  /// @param noise  of the sensor, `double sigma(double depth_m)`
+  /// @return       metres, 0 where there is none.
+  template <class Noise = KinectNoise>
+  double at(const DepthView& depth, const Vector2f& pixel, const Noise& noise = {}) const {
+    // Also false for NaN, and for what is too far away for an int.
+    if (!(depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.5f)) return 0.0;
+    const int u = rounded(pixel.x()), v = rounded(pixel.y());
+    if (u < 1 || v < 1 || u + 1 >= depth.image.width || v + 1 >= depth.image.height) return 0.0;
+    return depth.image.format == PixelFormat::depth16 ? of_surface<std::uint16_t>(depth, u, v, noise)
+                                                      : of_surface<float>(depth, u, v, noise);
+  }
+
+  /// The same at a pixel of the gray image, whose depth image may have another size.
+  template <class Noise = KinectNoise>
+  double at(const FrameView& frame, const Vector2f& pixel, const Noise& noise = {}) const {
+    return frame.depth.empty() ? 0.0 : at(frame.depth, DepthScale(frame.gray, frame.depth.image)(pixel), noise);
+  }
+
+ private:
+  /// Compared in the units of the image: metres of the extremes alone.
+  template <class Depth, class Noise>
+  double of_surface(const DepthView& depth, int u, int v, const Noise& noise) const {
+    const Depth centre = depth.image.row<Depth>(v)[u];
+    if (!is_depth(centre)) return 0.0;
+    int neighbours = 0;
+    Depth nearest = centre, farthest = centre;
+    for (int j = -1; j <= 1; ++j) {
+      const Depth* const row = depth.image.row<Depth>(v + j) + u;
+      for (int i = -1; i <= 1; ++i) {
+        const bool counts = is_depth(row[i]);
+        neighbours += counts;
+        nearest = counts && row[i] < nearest ? row[i] : nearest;
+        farthest = counts && row[i] > farthest ? row[i] : farthest;
+      }
+    }
+    if (neighbours < fewest_neighbours) return 0.0;
+    const auto centre_m = static_cast<double>(depth.metres(centre));
+    const double difference_m =
+        static_cast<double>(depth.metres(farthest)) - static_cast<double>(depth.metres(nearest));
+    const bool is_surface = difference_m <= jump_m || difference_m <= jump_m + jump_sigmas * noise.sigma(centre_m);
+    return is_surface ? centre_m : 0.0;
+  }
+
+  static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }
+  static bool is_depth(float raw_m) noexcept { return raw_m > 0.0f && raw_m < std::numeric_limits<float>::infinity(); }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,226 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What do older frames show where a standing feature should be?   Features, the motion → past_observations
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/guarded_depth.hpp"
+#include "stillpoint/match/borrowed_depth.hpp"
+#include "stillpoint/match/older_frames.hpp"
+#include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/space_search.hpp"
+#include "stillpoint/match/static_place.hpp"
+#include "stillpoint/match/surface_search.hpp"
+#include "stillpoint/match/surrounding_depth.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
+
+namespace stillpoint {
+
+/// Looks for every feature at the places where a standing point would have been in older frames. `choose_keyframes`
+/// comes before the motion is estimated, `reproject_into_past` after.
+class PastReprojection {
+ public:
+  struct Options {
+    double slowest_m_s = 0.03;      ///< a mover of this speed should be seen against the oldest frame
+    double pixel_sigma = 0.7;       ///< of a found patch, pixels
+    double longest_s = 0.5;         ///< but no frame is older than this, unless frames are few
+    double occlusion_sigmas = 4.0;  ///< a surface nearer by so many standard deviations of both depths hides the point
+  };
+  Options options;
+  GuardedDepth guard;      ///< which depth of an older frame belongs to a pixel?
+  SurfaceSearch surfaces;  ///< cells of smooth surface
+  SpaceSearch space;       ///< who came where space was free?
+
+  /// Chooses the older frames, and finds the surfaces in the last one.
+  /// @param filter_from_expected  where the camera is expected now
+  template <class Camera, class Noise>
+  void choose_keyframes(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
+                        const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
+    const OlderFrameChoice choice{options.slowest_m_s, options.pixel_sigma, options.longest_s};
+    choose_older_frames(choice, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
+    order_by_place(matches, workspace);
+    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
+                             surfaces.scaled_step_px(camera), matches, workspace);
+  }
+
+  /// Looks for the surfaces once more, and for the features.
+  template <class Camera, class Noise>
+  void reproject_into_past(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
+                           const Camera& camera, const Noise& noise, Observations& observations) const {
+    Matches& matches = observations.matches;
+    look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
+                      matches.past_observations.frames());
+    for (const std::size_t i : matches.past_observations.order) {
+      if (matches.current.has_depth(i)) {
+        const double depth_m = matches.current.depth_m[i];
+        look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), std::numeric_limits<float>::infinity(),
+             history, current, camera, noise, matches);
+      } else if (i < matches.host_count && matches.current.undistorted[i].allFinite()) {
+        look_beside(i, history, current, camera, noise, matches);
+      }
+    }
+    space.count_views_through(history.space(), current.timestamp_s, filter_from_current, camera, noise, matches);
+  }
+
+ private:
+  static constexpr float kNeighbourhood_px = 32.0f;  // features in one cell of this size are looked for in a row
+  static constexpr int kFewestPixels = 25;           // of a patch's 64 that must lie on the feature's surface
+  static constexpr DepthTolerance kSameSurface{};
+  static constexpr int kOccluderReach_px = 8;     // what is nearer within this reach covers a part of the patch
+  static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
+  static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one
+  static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
+  static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
+  static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
+  static constexpr float kUnlike = 1.0f;          // counts a frame in which a patch can't be compared
+  static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
+  static constexpr float kSearchPrecision_px = 0.2f;
+
+  static void order_by_place(Matches& matches, Workspace& workspace) {
+    const Workspace::Scope scope(workspace);
+    const PixelGrid grid(matches.current.pixel, kNeighbourhood_px, workspace, [](std::size_t) { return true; });
+    std::vector<std::uint32_t>& order = matches.past_observations.order;
+    order.resize(grid.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) order[rank] = static_cast<std::uint32_t>(grid.index(rank));
+  }
+
+  /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
+  /// surfaces beside it. Taken is where it looks most as if it stood.
+  template <class Camera, class Noise>
+  void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
+                   const Noise& noise, Matches& matches) const {
+    const SurroundingDepth beside =
+        surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard, noise);
+    if (!(beside.farthest_m > 0)) return;
+    std::array<double, 2 + OlderFrameChoice::kLooks> candidates{beside.farthest_m, beside.nearest_m};
+    std::size_t count = beside.farthest_m - beside.nearest_m < kSameSurface.at(noise.sigma(beside.nearest_m)) ? 1 : 2;
+    const std::size_t supposed = count;
+    for (const OlderFrame& older : std::as_const(matches.past_observations).frames()) {
+      const double borrowed_m =
+          borrowed_depth_m(matches.current.undistorted[i], beside.farthest_m, history.back(older.age).view(),
+                           older.reference_from_current, camera, guard, noise, kSameSurface);
+      const bool is_known =
+          count > supposed && std::abs(borrowed_m - candidates[count - 1]) < kBorrowedSigmas * noise.sigma(borrowed_m);
+      if (borrowed_m > 0 && !is_known && count < candidates.size()) candidates[count++] = borrowed_m;
+    }
+    const auto spread_of = [&](std::size_t c) {
+      const double depth_m = candidates[c];
+      const double supposed_spread = supposed > 1 ? kSupposedSpread : kBridgedSpread;
+      return c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
+    };
+    const span<OlderFrame> frames = matches.past_observations.frames();
+    std::array<Observation, OlderFrameChoice::kLooks> least_unlike;
+    std::size_t best = count;
+    float least = std::numeric_limits<float>::infinity();
+    for (std::size_t c = count; c-- > 0;) {
+      const float dissimilarity = look(i, candidates[c], spread_of(c), least, history, current, camera, noise, matches);
+      if (!(dissimilarity < least)) continue;
+      least = dissimilarity;
+      best = c;
+      if (clearly_stands(i, frames)) return;
+      for (std::size_t f = 0; f < frames.size(); ++f) least_unlike[f] = frames[f].of_feature[i];
+    }
+    if (best == count) return;
+    suppose(i, candidates[best], spread_of(best), camera, matches);
+    for (std::size_t f = 0; f < frames.size(); ++f) frames[f].of_feature[i] = least_unlike[f];
+  }
+
+  /// What is looked for: the feature at a depth.
+  template <class Camera>
+  static void suppose(std::size_t i, double depth_m, double inverse_depth_sigma, const Camera& camera,
+                      Matches& matches) {
+    matches.past_observations.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
+    matches.past_observations.inverse_depth_sigma[i] = inverse_depth_sigma;
+  }
+
+  /// Looks for a feature in every older frame.
+  /// @param most  of the sum that is returned: where it can't be less any more, looking ends
+  /// @return how dissimilar it is, summed over the frames; one where it can't be compared counts as unlike
+  template <class Camera, class Noise>
+  float look(std::size_t i, double depth_m, double inverse_depth_sigma, float most, const FrameHistory& history,
+             const FrameView& current, const Camera& camera, const Noise& noise, Matches& matches) const {
+    PastObservations& past_observations = matches.past_observations;
+    suppose(i, depth_m, inverse_depth_sigma, camera, matches);
+    Patch patch;
+    const Vector2f centre = rounded(matches.current.pixel[i]);
+    const bool textured = cut_patch(current.gray, centre,
+                                    PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
+                          patch.count >= kFewestPixels;
+    const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
+    float dissimilarity = 0;
+    const auto look_at = [&](OlderFrame& older) {
+      Observation& observation = older.of_feature[i];
+      observation = look_in(history.back(older.age).view(), older.reference_from_current, point,
+                            inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
+      if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
+      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kUnlike;
+      return dissimilarity < most;
+    };
+    const span<OlderFrame> frames = past_observations.frames();
+    look_in_older_frames(i, frames, i >= matches.host_count, look_at);
+    dissimilarity = 0;  // with what was not looked at
+    for (const OlderFrame& older : frames) {
+      const Observation& observation = older.of_feature[i];
+      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kUnlike;
+    }
+    return dissimilarity;
+  }
+
+  template <class Camera, class Noise>
+  Observation look_in(const FrameView& older, const Pose& reference_from_current, const Vector3d& point,
+                      double depth_sigma_m, const Patch* patch, const Camera& camera, const Noise& noise) const {
+    const StaticPlace place = PlaceTest{options.occlusion_sigmas, guard}.look(older, reference_from_current, point,
+                                                                              depth_sigma_m, camera, noise);
+    Observation observation = place.observation;
+    if (!place.in_view || patch == nullptr || observation.state == ObservationState::occluded) return observation;
+    if (beside_occluder(older, place.pixel, place.nearer_than_m, scaled_px(kOccluderReach_px, camera)))
+      return observation;
+    PatchSearch search{kSearchIterations, kSearchPrecision_px};
+    search.warp = view_warp(camera, point, place.point, reference_from_current);
+    const PatchFit fit = find_patch(*patch, older.gray, place.pixel, search);
+    if (!fit.inside) return observation;
+    // Without depth and without texture there is nothing to compare with: a hand before the lens, a blown-out lamp.
+    if (!(observation.depth_m > 0) && !(fit.contrast > kLeastContrast)) return observation;
+    observation.state = ObservationState::seen;
+    observation.dissimilarity = fit.dissimilarity;
+    observation.offset_px = fit.offset.norm();
+    observation.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
+    return observation;
+  }
+
+  /// How a small step in the current image moves in the older one, for a surface that faces the camera.
+  template <class Camera>
+  static Eigen::Matrix2f view_warp(const Camera& camera, const Vector3d& here, const Vector3d& there,
+                                   const Pose& reference_from_current) {
+    const Eigen::Matrix3d& turn = reference_from_current.linear();
+    const double x = there.x() / there.z(), y = there.y() / there.z(), aspect = camera.fx() / camera.fy();
+    Eigen::Matrix2d warp;
+    warp << turn(0, 0) - x * turn(2, 0), aspect * (turn(0, 1) - x * turn(2, 1)),  //
+        (turn(1, 0) - y * turn(2, 0)) / aspect, turn(1, 1) - y * turn(2, 1);
+    return (here.z() / there.z() * warp).template cast<float>();
+  }
+};
+
+template <class Visit>
+void each_option(PastReprojection& stage, Visit& visit) {
+  visit("slowest_m_s", stage.options.slowest_m_s, OptionRange{1e-3, 100});
+  visit("pixel_sigma", stage.options.pixel_sigma, OptionRange{0.01, 100});
+  visit("longest_s", stage.options.longest_s, OptionRange{0, 3600});
+  visit("occlusion_sigmas", stage.options.occlusion_sigmas, OptionRange{0, 100});
+  visit("surfaces", stage.surfaces);
+}
+
+}  // namespace stillpoint

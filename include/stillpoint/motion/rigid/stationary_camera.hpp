@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Does the camera stand?   Corners at rest are no coincidence: a mover hides no wall, however much of the view it
+// fills.
+
+#include <cstddef>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/observations.hpp"
+
+namespace stillpoint {
+
+/// A camera that stands has exactly no motion, which needs far less support than one that was estimated: a moving
+/// camera leaves nothing at rest but what is fixed to it, and that lies before the world, not behind. Without this, who
+/// stands close before the lens and sways takes the pose along.
+struct StationaryCamera {
+  bool is_enabled = true;  ///< false: no camera is taken for stationary; no option in files
+
+  /// Between the last frame and this one.
+  bool since_last_frame(const Observations& observations, bool stood) const {
+    const Matches& matches = observations.matches;
+    Census census;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (!matches.matched(i)) continue;
+      census.count(at_rest(matches, i), observations, i);
+    }
+    return stands(census, stood);
+  }
+
+  /// @param i  a match
+  bool at_rest(const Matches& matches, std::size_t i) const {
+    return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm() < kRest_px;
+  }
+
+  /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: what creeps
+  /// is at rest from frame to frame.
+  bool since_older_frames(const Observations& observations) const {
+    const Matches& matches = observations.matches;
+    const OlderFrame* oldest = nullptr;
+    for (const OlderFrame& frame : matches.past_observations.frames())
+      if (frame.reference_from_current.matrix() == Pose::Identity().matrix()) oldest = &frame;
+    if (oldest == nullptr) return true;
+    Census census;
+    for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
+      const Observation& observation = oldest->of_feature[i];
+      if (observation.state != ObservationState::seen || !(observation.dissimilarity < 2.0f)) continue;
+      const double moved_px = (matches.current.undistorted[i] - observation.found.cast<double>()).norm();
+      census.count(moved_px < kRest_px, observations, i);
+    }
+    return census.empty() || stands(census, true);
+  }
+
+ private:
+  static constexpr double kRest_px = 0.3;         // a corner that moved less is at rest
+  static constexpr double kBeginsShare = 0.9;     // of the weight of all corners that is at rest when a camera stops
+  static constexpr double kMajorityShare = 0.5;   // while it is stationary, so much is enough …
+  static constexpr double kContinuesShare = 0.1;  // … or so much, if it lies behind the rest
+
+  struct Group {
+    double weight = 0;
+    double with_depth = 0, inverse_depth = 0;  ///< weight of those with a depth; Σ weight / depth
+  };
+  struct Census {
+    Group resting, moving;
+
+    bool empty() const noexcept { return !(resting.weight + moving.weight > 0); }
+
+    void count(bool at_rest, const Observations& observations, std::size_t i) {
+      const FrameFeatures& current = observations.matches.current;
+      Group& group = at_rest ? resting : moving;
+      const auto weight = static_cast<double>(observations.remembered.trust[i]);
+      group.weight += weight;
+      if (!current.has_depth(i)) return;
+      group.with_depth += weight;
+      group.inverse_depth += weight / current.depth_m[i];
+    }
+  };
+
+  bool stands(const Census& census, bool stood) const {
+    const double all = census.resting.weight + census.moving.weight;
+    if (!is_enabled || !(all > 0)) return false;
+    const double share = census.resting.weight / all;
+    if (share > (stood ? kMajorityShare : kBeginsShare)) return true;
+    const bool behind = census.resting.inverse_depth * census.moving.with_depth <
+                        census.moving.inverse_depth * census.resting.with_depth;
+    return stood && share > kContinuesShare && behind;
+  }
+};
+
+}  // namespace stillpoint

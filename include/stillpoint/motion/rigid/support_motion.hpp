@@ -1,0 +1,299 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How did the camera move?   Robust against dynamic majorities: support by area, trust from memory, the recent past as
+// the first hypothesis.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "stillpoint/core/capabilities.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/options.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/kabsch.hpp"
+#include "stillpoint/motion/ransac.hpp"
+#include "stillpoint/motion/rigid/inertia.hpp"
+#include "stillpoint/motion/rigid/stationary_camera.hpp"
+#include "stillpoint/motion/rigid/support_constraints.hpp"
+#include "stillpoint/motion/rigid/support_problem.hpp"
+
+namespace stillpoint {
+
+/// The ego-motion of `DefaultPolicies`. Two hypotheses compete: the motion expected from the past, pulled to the
+/// nearest consensus, and the best of many minimal samples, drawn by trust. Where they differ, the past wins as long as
+/// it explains enough (`consensus_inverted`): what moves with the majority may be a person before the camera. A camera
+/// that stands has no motion at all.
+class SupportMotion {
+ public:
+  using Needs = Capabilities<capability::matches, capability::metric_depth>;
+  using Provides = Capabilities<capability::metric_motion>;
+
+  struct Options {
+    double inlier_sigmas = 4.0;   ///< beyond it a match supports a hypothesis no more
+    std::size_t max_trials = 60;  ///< samples of three points: half static are missed with (1 − 0.5³)⁶⁰ < 4e-4
+    std::uint64_t seed = Random::kDefaultSeed;
+  };
+  Options options;
+  SupportConstraints constraints;  ///< noise and weights of what supports a motion
+  StationaryCamera standing;       ///< when has the camera no motion at all?
+  Inertia inertia;                 ///< what its velocity knows
+
+  // No options in files.
+  double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
+  bool measures_noise = true;     ///< of pixels and depths in each frame; false: it is as assumed
+
+  /// @return status ok (perhaps with the warning consensus_inverted), no_depth, too_few_matches or no_consensus.
+  template <class Camera>
+  Motion estimate(const Observations& observations, const Camera& camera, const MotionPrior& prior,
+                  Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const Matches& matches = observations.matches;
+    const span<std::uint32_t> features = workspace.take<std::uint32_t>(matches.size());
+    const span<PointConstraint> points = constraints.from_matches(observations, camera, features, workspace);
+    Motion motion;
+    motion.candidates = static_cast<int>(points.size());
+    motion.status = Status::too_few_matches;
+    if (points.size() < kFewestMatches) return motion;
+
+    const span<const OlderFrame> frames = matches.past_observations.frames();
+    auto problem =
+        problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), observations, camera, workspace);
+    const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
+    Hypothesis past = refine(expected, problem, kFarCutoffs);
+    const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
+    motion.pixel_sigma = noise.pixel_sigma;
+    motion.depth_noise = noise.depth_scale;
+    past = refine(past.reference_from_current, problem, kAgainCutoffs);
+    const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
+    const bool differ =
+        sampled.support > past.support &&
+        problem.distance_px(sampled.reference_from_current, past.reference_from_current) > kSameMotion_px;
+    const bool knows_past =
+        prior.current_from_reference.has_value();  // else it began with no motion, for want of better
+    // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
+    const bool inverted =
+        differ && knows_past &&
+        problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
+            past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
+    const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
+    motion.standing = standing.since_last_frame(observations, prior.standing) &&
+                      nothing_creeps(points, features, matches, camera, workspace);
+    const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
+
+    motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
+    const bool explained =
+        problem.point_support(chosen.reference_from_current) > kLeastSupport * problem.total_weight();
+    if (!explained || !any_depth(matches)) return motion;
+    motion.status = Status::ok;
+    if (inverted) motion.warnings = Warning::consensus_inverted;
+    motion.inliers = problem.inliers(chosen.reference_from_current);
+    motion.current_from_reference = orthonormalized(chosen.reference_from_current.inverse());
+    Matrix6d information = chosen.information;
+    if (!motion.standing && inertia.applies(prior))
+      motion.current_from_reference = inertia.fuse(motion.current_from_reference, information, prior);
+    set_covariance(information, motion);
+    return motion;
+  }
+
+  /// Refines the motion against all older frames at once: their poses to each other are known, so that one small motion
+  /// of the current camera moves them all.
+  template <class Camera>
+  void refine(Observations& observations, const Camera& camera, const MotionPrior& prior, Motion& motion,
+              Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    if (motion.standing && standing.since_older_frames(observations)) return;
+    motion.standing = false;
+    const span<OlderFrame> frames = observations.matches.past_observations.frames();
+    const span<PointConstraint> points = constraints.from_past_observations(observations, camera, workspace);
+    if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
+    auto problem = problem_of(points, frames, observations, camera, workspace);
+    calibrate(frames[0].reference_from_current, problem, workspace);
+    Hypothesis trusted;
+    trusted.reference_from_current = frames[0].reference_from_current;
+    trusted.information = problem.refine(trusted.reference_from_current, kNearCutoffs);
+    if (trusted.information.isZero()) return;
+    trusted.support = problem.support(trusted.reference_from_current);
+    const Hypothesis chosen = with_suspects(trusted, kNearCutoffs, problem);
+    Matrix6d information = chosen.information;
+    const Pose step = chosen.reference_from_current.inverse() * frames[0].reference_from_current;
+    Pose refined = orthonormalized(step * motion.current_from_reference);
+    if (inertia.applies(prior)) refined = inertia.fuse(refined, information, prior);
+    const Pose back = motion.current_from_reference * refined.inverse();  // the old current camera from the new one
+    motion.current_from_reference = refined;
+    set_covariance(information, motion);
+    for (OlderFrame& frame : frames)
+      frame.reference_from_current = orthonormalized(frame.reference_from_current * back);
+  }
+
+ private:
+  static constexpr double kConfidence = 0.9996;    // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;    // hypotheses that move the matches less apart on average are one
+  static constexpr double kLeastSupport = 0.08;    // share of all weight that the motion must explain
+  static constexpr double kUndisputedLoss = 12.6;  // squared sigmas that suspects in full may cost the trusted
+  static constexpr double kCreepGain = 60.0;       // squared sigmas by which a motion must beat standing still
+  static constexpr double kLeastPixelSigma =
+      0.1;  // of the measured noise, pixels; the most is `constraints.pixel_sigma`
+  static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
+  static constexpr std::size_t kFewestMatches = 6;  // twice a minimal sample
+
+  static constexpr std::array<double, 3> kFarCutoffs{12.0, 6.0, 4.0};  // from a pose that is a guess
+  static constexpr std::array<double, 2> kAgainCutoffs{12.0, 4.0};     // from one that was refined already
+  static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
+
+  struct Hypothesis {
+    Pose reference_from_current = Pose::Identity();
+    Matrix6d information = Matrix6d::Zero();
+    double support = 0;
+  };
+
+  /// Points, and the surfaces that a choose_keyframes has found in these frames, if there was one.
+  template <class Camera>
+  SupportProblem<Camera> problem_of(span<PointConstraint> points, span<const OlderFrame> frames,
+                                    const Observations& observations, const Camera& camera,
+                                    Workspace& workspace) const {
+    const std::size_t count = std::max<std::size_t>(frames.size(), 1);
+    const span<Pose> poses = workspace.take<Pose>(count, Pose::Identity());
+    const span<Pose> links = workspace.take<Pose>(count, Pose::Identity());
+    for (std::size_t f = 0; f < frames.size(); ++f) poses[f] = frames[f].reference_from_current;
+    return {points, constraints.from_surfaces(observations, frames, workspace),
+            poses,  links,
+            camera, options.inlier_sigmas};
+  }
+
+  /// Is what is at rest better explained by a motion too small to see in any corner by itself?
+  template <class Camera>
+  bool nothing_creeps(span<const PointConstraint> points, span<const std::uint32_t> features, const Matches& matches,
+                      const Camera& camera, Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (standing.at_rest(matches, features[k])) resting[count++] = points[k];
+    Pose poses[2] = {Pose::Identity(), Pose::Identity()};
+    SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
+    calibrate(Pose::Identity(), problem, workspace);
+    const Hypothesis crept = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    return problem.squared_residuals_of(crept.support - problem.support(Pose::Identity())) < kCreepGain;
+  }
+
+  /// No motion, as well known as the support allows.
+  template <class Camera>
+  Hypothesis at_rest(const SupportProblem<Camera>& problem) const {
+    Hypothesis hypothesis = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    hypothesis.reference_from_current = Pose::Identity();
+    return hypothesis;
+  }
+
+  /// The motion with suspects in full, where the trusted do not object: what was seen moving is parked, and its points
+  /// are as good as any. Where they object, the trusted hypothesis as it is. The loss of the trusted has a χ²
+  /// distribution of six degrees of freedom if all stand still: its 95 % quantile is the most that they may lose. What
+  /// has just started moves a few trusted corners by less than their noise, and would take the motion along.
+  template <class Camera>
+  Hypothesis with_suspects(const Hypothesis& trusted, span<const double> cutoffs,
+                           SupportProblem<Camera>& problem) const {
+    Hypothesis all = trusted;
+    problem.swap_trust();
+    all.information = problem.refine(all.reference_from_current, cutoffs);
+    problem.swap_trust();
+    if (all.information.isZero()) return trusted;
+    all.support = problem.support(all.reference_from_current);
+    return problem.squared_residuals_of(trusted.support - all.support) < kUndisputedLoss ? all : trusted;
+  }
+
+  static bool any_depth(const Matches& matches) noexcept {
+    return std::any_of(matches.current.depth_m.begin(), matches.current.depth_m.end(), [](double d) { return d > 0; });
+  }
+
+  template <class Camera>
+  static Hypothesis refine(const Pose& reference_from_current, const SupportProblem<Camera>& problem,
+                           span<const double> cutoffs) {
+    Hypothesis hypothesis;
+    hypothesis.reference_from_current = reference_from_current;
+    hypothesis.information = problem.refine(hypothesis.reference_from_current, cutoffs);
+    hypothesis.support = problem.support(hypothesis.reference_from_current);
+    return hypothesis;
+  }
+
+  template <class Camera>
+  SupportNoise calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem,
+                         Workspace& workspace) const {
+    const double most_sigma = constraints.pixel_sigma;
+    return problem.calibrate(reference_from_current, {measures_noise ? kLeastPixelSigma : most_sigma, 1.0},
+                             {most_sigma, measures_noise ? kMostDepthNoise : 1.0}, workspace);
+  }
+
+  /// The best motion of three points, refined; no support where none explains more points than `past`.
+  template <class Camera>
+  Hypothesis best_sample(const Matches& matches, span<const std::uint32_t> features, const Hypothesis& past,
+                         const SupportProblem<Camera>& problem, Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const span<const PointConstraint> points = problem.points();
+    const span<std::size_t> metric = workspace.take<std::size_t>(points.size());
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (matches.metric(features[k])) metric[count++] = k;
+    if (count < 3) return {};
+    double to_beat = problem.point_support(past.reference_from_current);
+    // What explains more than the past does has at least its share of inliers.
+    const std::size_t trials = required_trials(to_beat / problem.total_weight(), 3, kConfidence, options.max_trials);
+    Random random(options.seed);
+    std::optional<Pose> best;
+    for (std::size_t trial = 0; trial < trials; ++trial) {
+      const std::optional<Pose> pose = sample(matches, points, features, metric.first(count), random);
+      if (!pose) continue;
+      const double found = problem.point_support(*pose, to_beat);
+      if (!(found > to_beat)) continue;
+      to_beat = found;
+      best = pose;
+    }
+    return best ? refine(*best, problem, kFarCutoffs) : Hypothesis{};
+  }
+
+  /// Three metric matches, each accepted with the probability of its weight.
+  std::optional<Pose> sample(const Matches& matches, span<const PointConstraint> points,
+                             span<const std::uint32_t> features, span<const std::size_t> metric, Random& random) const {
+    constexpr int kAttempts = 100;
+    std::array<Vector3d, 3> current, reference;
+    std::array<std::size_t, 3> chosen{};
+    std::size_t count = 0;
+    for (int attempt = 0; attempt < kAttempts && count < 3; ++attempt) {
+      const std::size_t k = metric[random.index(metric.size())];
+      const bool again = std::find(chosen.begin(), chosen.begin() + count, k) != chosen.begin() + count;
+      if (again || !(random.uniform() < points[k].weight)) continue;
+      current[count] = matches.current.point[features[k]];
+      reference[count] = matches.reference.point[features[k]];
+      chosen[count++] = k;
+    }
+    if (count < 3) return std::nullopt;
+    return kabsch(span<const Vector3d>(current.data(), 3), span<const Vector3d>(reference.data(), 3));
+  }
+
+  static void set_covariance(const Matrix6d& information, Motion& motion) {
+    constexpr double kHold = 1e-6;  // what nothing is known of gets kilometres
+    motion.correlation = Inertia::kCorrelated;
+    motion.covariance = Inertia::kCorrelated * Cholesky<6>(information + kHold * Matrix6d::Identity()).inverse();
+  }
+};
+
+template <class Visit>
+void each_option(SupportMotion& stage, Visit& visit) {
+  visit("inlier_sigmas", stage.options.inlier_sigmas, OptionRange{0.1, 100});
+  visit("max_trials", stage.options.max_trials, OptionRange{0, 1e4});
+  visit.seed("seed", stage.options.seed);
+  visit("constraints", stage.constraints);
+  visit("inertia", stage.inertia);
+}
+
+}  // namespace stillpoint

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How well does a motion explain the support corners and surfaces, and which motion near by explains them best?
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/rigid/reprojection_refinement.hpp"
+
+namespace stillpoint {
+
+/// How exact the points and planes are.
+struct SupportNoise {
+  double pixel_sigma = 1;  ///< pixels
+  double depth_scale = 1;  ///< times what was assumed
+};
+
+/// Everything that is known of one motion: points and planes in one or more older frames, whose poses to each other
+/// are known, so that the pose to the first of them gives all. Views of a workspace.
+template <class Camera>
+class SupportProblem {
+ public:
+  /// @param poses          one reference_from_current for each older frame: says how they lie to each other, and is
+  ///                       scratch memory from here on. At least one.
+  /// @param inlier_sigmas  beyond it a constraint supports no more
+  SupportProblem(span<PointConstraint> points, span<PlaneConstraint> planes, span<Pose> poses, span<Pose> links,
+                 const Camera& camera, double inlier_sigmas)
+      : points_(points),
+        planes_(planes),
+        poses_(poses),
+        links_(links),
+        camera_(camera),
+        limit_(inlier_sigmas * inlier_sigmas) {
+    const Pose current_from_first = poses[0].inverse();
+    for (std::size_t f = 0; f < poses.size(); ++f) links_[f] = poses[f] * current_from_first;
+  }
+
+  span<const PointConstraint> points() const noexcept { return points_; }
+
+  /// To the weights as if nothing were suspect; a second call goes back.
+  void swap_trust() noexcept {
+    for (PointConstraint& point : points_) std::swap(point.weight, point.memoryless_weight);
+    for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.memoryless_weight);
+  }
+
+  /// Measures the noise of the trusted points, from the medians of their residuals, and sets it for all. Of those that
+  /// have a depth: without one the residual has other degrees of freedom.
+  /// @param least, most  what is measured is held within these
+  /// @return             most pixel noise and least depth noise where nothing is trusted
+  SupportNoise calibrate(const Pose& pose, const SupportNoise& least, const SupportNoise& most, Workspace& workspace) {
+    constexpr double kTrusted = 0.5;  // weight
+    const Workspace::Scope scope(workspace);
+    const span<double> squared_px = workspace.take<double>(points_.size());
+    const span<double> squared_depth = workspace.take<double>(points_.size());
+    std::size_t count = 0;
+    spread(pose);
+    for (const PointConstraint& point : points_) {
+      if (!(point.weight > kTrusted) || !point.has_depth()) continue;
+      const PointResidual<double> residual(poses_[point.frame], camera_, point);
+      if (!std::isfinite(residual.squared)) continue;
+      squared_px[count] = residual.squared_px * point.pixel_sigma * point.pixel_sigma;
+      squared_depth[count++] = residual.depth_error * residual.depth_error;
+    }
+    constexpr double kMedianOfTwo = 1.386, kMedianOfOne = 0.455;  // of χ² with so many degrees of freedom
+    SupportNoise noise = {most.pixel_sigma, least.depth_scale};
+    if (count > 0) {
+      noise.pixel_sigma = std::sqrt(median_in_place(squared_px.first(count)) / kMedianOfTwo);
+      noise.depth_scale = std::sqrt(median_in_place(squared_depth.first(count)) / kMedianOfOne);
+    }
+    noise.pixel_sigma = std::min(most.pixel_sigma, std::max(least.pixel_sigma, noise.pixel_sigma));
+    noise.depth_scale = std::min(most.depth_scale, std::max(least.depth_scale, noise.depth_scale));
+    for (PointConstraint& point : points_) {
+      point.pixel_sigma = noise.pixel_sigma;
+      point.inverse_depth_sigma *= noise.depth_scale;
+      point.depth_slope /= noise.depth_scale;
+    }
+    for (PlaneConstraint& plane : planes_) plane.slope /= noise.depth_scale;
+    return noise;
+  }
+
+  double squared(const PointConstraint& point, const Pose& pose) const {
+    return squared_residual(point, point.frame == 0 ? pose : Pose(links_[point.frame] * pose), camera_);
+  }
+
+  /// The support of a pose that all points fit exactly.
+  double total_weight() const {
+    double sum = 0;
+    for (const PointConstraint& point : points_) sum += point.weight;
+    return sum;
+  }
+
+  /// Σ weight · (1 − squared residual / limit) over the inliers among the points.
+  /// @param to_beat  counting ends where this cannot be reached any more
+  double point_support(const Pose& pose, double to_beat = 0.0) const {
+    spread(pose);
+    double left = total_weight(), sum = 0;
+    for (std::size_t k = 0; k < points_.size() && !(sum + left < to_beat);) {
+      const PointConstraint& point = points_[k];
+      if (k + 1 < points_.size() && points_[k + 1].frame == point.frame) {
+        const PointConstraint& next = points_[k + 1];
+        const PointResidual<Lanes> both(poses_[point.frame], camera_, point, next);
+        sum += point.weight * share(both.squared(0)) + next.weight * share(both.squared(1));
+        left -= point.weight + next.weight;
+        k += 2;
+      } else {
+        sum += point.weight * share(squared_residual(point, poses_[point.frame], camera_));
+        left -= point.weight;
+        ++k;
+      }
+    }
+    return sum + left < to_beat ? 0.0 : sum;
+  }
+
+  /// The same over points and planes.
+  double support(const Pose& pose) const {
+    double sum = point_support(pose);
+    for (const PlaneConstraint& plane : planes_) {
+      const double error = plane.slope.dot(poses_[plane.frame] * plane.point - plane.target);
+      sum += plane.weight * share(error * error);
+    }
+    return sum;
+  }
+
+  /// The weight of the points that one pose explains and another does not.
+  double exclusive_support(const Pose& pose, const Pose& other) const {
+    double sum = 0;
+    for (const PointConstraint& point : points_)
+      if (squared(point, pose) < limit_ && !(squared(point, other) < limit_)) sum += point.weight;
+    return sum;
+  }
+
+  /// Squared residuals that a loss of support stands for.
+  double squared_residuals_of(double support_loss) const noexcept { return support_loss * limit_; }
+
+  /// Moves a pose to the best explanation near by.
+  /// @return the information matrix, zero when there was no step to be had
+  Matrix6d refine(Pose& pose, span<const double> cutoffs) const {
+    spread(pose);
+    const Matrix6d information = refine_reprojection(points_, planes_, poses_, cutoffs, camera_);
+    pose = poses_[0];
+    return information;
+  }
+
+  int inliers(const Pose& pose) const {
+    return static_cast<int>(std::count_if(points_.begin(), points_.end(),
+                                          [&](const PointConstraint& point) { return squared(point, pose) < limit_; }));
+  }
+
+  /// How far apart two poses put the points, on average; one that is wild counts ten pixels.
+  double distance_px(const Pose& a, const Pose& b) const {
+    constexpr double kFar_px = 10.0;
+    double sum = 0;
+    for (const PointConstraint& point : points_) {
+      const Vector3d pa = a * point.point, pb = b * point.point;
+      const bool both = pa.z() > PointResidual<double>::kNearest_m && pb.z() > PointResidual<double>::kNearest_m;
+      sum += both ? std::min((camera_.project(pa) - camera_.project(pb)).norm(), kFar_px) : kFar_px;
+    }
+    return sum / static_cast<double>(points_.size());
+  }
+
+ private:
+  double share(double squared_residual) const noexcept { return std::max(0.0, 1.0 - squared_residual / limit_); }
+
+  /// From the pose to the first older frame to those of all.
+  void spread(const Pose& pose) const {
+    poses_[0] = pose;
+    for (std::size_t f = 1; f < poses_.size(); ++f) poses_[f] = orthonormalized(links_[f] * pose);
+  }
+
+  span<PointConstraint> points_;
+  span<PlaneConstraint> planes_;
+  span<Pose> poses_, links_;
+  const Camera& camera_;
+  double limit_;
+};
+
+}  // namespace stillpoint

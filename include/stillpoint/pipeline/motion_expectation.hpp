@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What is expected of the coming motion?   What the host says of it, else that the velocity holds.
+
+#include <optional>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/pipeline/mean_velocity.hpp"
+
+namespace stillpoint {
+
+/// Whether a pose is one: finite, and a rotation with a translation but for what rounding and drift leave.
+inline bool is_rigid(const Pose& pose) {
+  constexpr double kDrift = 0.01;  // of products of many rotations in single precision, far more than rounding
+  const Matrix3d rotation = pose.linear();
+  return pose.matrix().allFinite() && rotation.cwiseAbs().maxCoeff() < 2.0 &&
+         (rotation.transpose() * rotation - Matrix3d::Identity()).norm() < kDrift &&
+         rotation.col(0).cross(rotation.col(1)).dot(rotation.col(2)) > 0.0;  // no mirror
+}
+
+/// Whether a camera may have moved so from one frame to the next: rigid, and no farther than 100 m (what a train of
+/// 360 km/h makes in a second). More is another unit, or a jump to another place.
+inline bool is_plausible_motion(const Pose& current_from_reference) {
+  constexpr double kFarthest_m = 100.0;
+  return is_rigid(current_from_reference) &&
+         current_from_reference.translation().cwiseAbs().maxCoeff() <= kFarthest_m &&
+         current_from_reference.translation().norm() <= kFarthest_m;
+}
+
+/// Keeps the last velocity, and what the host says. Poses that are not rigid, and motions that no camera makes, say
+/// nothing.
+class MotionExpectation {
+ public:
+  /// The host's own pose of the frame that came last. Those of two frames in a row give the velocity.
+  /// @return  what the host says of the motion to that frame, current_from_reference, plausible or not
+  std::optional<Pose> feedback(const Pose& world_from_camera) {
+    if (!is_rigid(world_from_camera)) return std::nullopt;
+    world_from_last_ = world_from_camera;
+    if (!world_from_second_last_) return std::nullopt;
+    const Pose moved = inverted(world_from_camera) * *world_from_second_last_;
+    if (is_plausible_motion(moved)) last_motion_ = orthonormalized(moved);
+    return moved;
+  }
+
+  /// What an IMU or wheels say of the motion to the coming frame; holds for that one.
+  void expect(const Pose& current_from_reference) {
+    if (is_plausible_motion(current_from_reference)) said_ = orthonormalized(current_from_reference);
+  }
+
+  /// @param timestamp_s  of the coming frame: the velocity is scaled to the time that has passed
+  MotionPrior at(double timestamp_s) const {
+    MotionPrior prior;
+    prior.standing = standing_;
+    if (last_timestamp_s_) prior.elapsed_s = timestamp_s - *last_timestamp_s_;
+    if (said_)
+      prior.current_from_reference = said_;
+    else if (last_motion_ && last_timestamp_s_)
+      prior.current_from_reference = scaled(*last_motion_, prior.elapsed_s / last_interval_s_);
+    if (prior.elapsed_s > 0) prior.predicted = said_ ? said_ : mean_velocity_.during(prior.elapsed_s);
+    // A velocity over a tiny interval, that of two time stamps a rounding apart, is none.
+    for (std::optional<Pose>* pose : {&prior.current_from_reference, &prior.predicted})
+      if (*pose && !is_plausible_motion(**pose)) pose->reset();
+    return prior;
+  }
+
+  /// A frame has come, and the camera moved so.
+  void advance(double timestamp_s, const Motion& motion) {
+    if (last_timestamp_s_) last_interval_s_ = timestamp_s - *last_timestamp_s_;
+    last_timestamp_s_ = timestamp_s;
+    world_from_second_last_ = world_from_last_;
+    world_from_last_.reset();
+    said_.reset();
+    last_motion_.reset();
+    if (!motion.usable()) return mean_velocity_.forget();
+    if (last_interval_s_ > 0) mean_velocity_.add(motion.current_from_reference, last_interval_s_);
+    last_motion_ = motion.current_from_reference;
+    standing_ = motion.standing;
+  }
+
+  const std::optional<double>& last_timestamp_s() const noexcept { return last_timestamp_s_; }
+
+ private:
+  std::optional<Pose> said_;
+  MeanVelocity mean_velocity_;       // of the motions that were found; the host's own poses do not change it
+  std::optional<Pose> last_motion_;  // what was done within last_interval_s_
+  double last_interval_s_ = 0.0;
+  bool standing_ = true;
+  std::optional<double> last_timestamp_s_;
+  std::optional<Pose> world_from_last_, world_from_second_last_;  // the host's poses of the last two frames
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What a stage may offer on top of its contract: found by its form, used where it is there. docs/extending.md tells it
+// in prose.
+
+#include <type_traits>
+#include <utility>
+
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/observations.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
+
+namespace stillpoint {
+
+// clang-format off
+
+template <class P, class Camera, class Noise, class = void> struct reprojects_into_past : std::false_type {};
+template <class P, class Camera, class Noise> struct reprojects_into_past<P, Camera, Noise, std::void_t<
+    decltype(std::declval<P&>().choose_keyframes(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
+    std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(), std::declval<Matches&>(),
+    std::declval<Workspace&>())),
+    decltype(std::declval<P&>().reproject_into_past(std::declval<const FrameHistory&>(), std::declval<const FrameView&>(),
+    std::declval<const Pose&>(), std::declval<const Camera&>(), std::declval<const Noise&>(),
+    std::declval<Observations&>()))>> : std::true_type {};
+
+template <class P, class Camera, class Noise, class = void> struct aligns : std::false_type {};
+template <class P, class Camera, class Noise> struct aligns<P, Camera, Noise, std::void_t<decltype(std::declval<P&>().align(
+    std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<const Pose&>(),
+    std::declval<const Camera&>(), std::declval<const Noise&>()))>> : std::true_type {};
+
+template <class P, class Camera, class = void> struct refines : std::false_type {};
+template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
+    std::declval<Observations&>(), std::declval<const Camera&>(), std::declval<const MotionPrior&>(),
+    std::declval<Motion&>(), std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class P, class = void> struct recalls : std::false_type {};
+template <class P> struct recalls<P, std::void_t<decltype(std::declval<P&>().recall(
+    std::declval<const Matches&>(), std::declval<Remembered&>(), std::declval<Workspace&>()))>> : std::true_type {};
+
+template <class P, class = void> struct learns : std::false_type {};
+template <class P> struct learns<P, std::void_t<decltype(std::declval<P&>().learn(
+    std::declval<const Observations&>(), std::declval<span<const Label>>()))>> : std::true_type {};
+
+template <class P, class Camera, class = void> struct observes : std::false_type {};
+template <class P, class Camera> struct observes<P, Camera, std::void_t<decltype(std::declval<P&>().observe(
+    std::declval<const Observations&>(), std::declval<const Motion&>(), std::declval<const Camera&>()))>> : std::true_type {};
+
+template <class P, class = void> struct resets : std::false_type {};
+template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().reset())>> : std::true_type {};
+
+// clang-format on
+
+/// Before matching: a matcher may align the frames roughly.
+/// @return current_from_reference: what is expected, where it does not
+template <class Matcher, class Camera, class Noise>
+Pose align(Matcher& matcher, const FrameView& reference, const FrameView& current, const MotionPrior& expected,
+           const Camera& camera, const Noise& noise) {
+  const Pose guess = expected.current_from_reference ? *expected.current_from_reference : Pose::Identity();
+  if constexpr (aligns<Matcher, Camera, Noise>::value)
+    return inverted(matcher.align(reference, current, inverted(guess), camera, noise));
+  else
+    return guess;
+}
+
+/// Before the motion: a matcher may choose_keyframes older frames, and say what came within the past seconds.
+/// @param current_from_reference  roughly
+template <class Matcher, class Camera, class Noise>
+void choose_keyframes([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHistory& history,
+                      [[maybe_unused]] const FrameView& frame, [[maybe_unused]] const Pose& current_from_reference,
+                      [[maybe_unused]] const Camera& camera, [[maybe_unused]] const Noise& noise,
+                      [[maybe_unused]] Matches& matches, [[maybe_unused]] Workspace& workspace) {
+  if constexpr (reprojects_into_past<Matcher, Camera, Noise>::value) {
+    Motion roughly;
+    roughly.current_from_reference = current_from_reference;
+    matcher.choose_keyframes(history, frame, history.filter_from_current(roughly), camera, noise, matches, workspace);
+  }
+}
+
+/// Before the motion: a memory may know features and surfaces.
+template <class Memory>
+void recall([[maybe_unused]] Memory& memory, const Matches& matches, Remembered& remembered,
+            [[maybe_unused]] Workspace& workspace) {
+  remembered.begin(matches);
+  if constexpr (recalls<Memory>::value) memory.recall(matches, remembered, workspace);
+}
+
+/// When the motion is known, be it usable or not: the prior may carry its regions along.
+template <class Prior, class Camera>
+void observe([[maybe_unused]] Prior& prior, [[maybe_unused]] const Observations& observations,
+             [[maybe_unused]] const Motion& motion, [[maybe_unused]] const Camera& camera) {
+  if constexpr (observes<Prior, Camera>::value) prior.observe(observations, motion, camera);
+}
+
+/// After the motion: the matcher may look for every feature in the older frames.
+template <class Matcher, class Camera, class Noise>
+void reproject_into_past([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHistory& history,
+                         [[maybe_unused]] const FrameView& frame, [[maybe_unused]] const Motion& motion,
+                         [[maybe_unused]] const Camera& camera, [[maybe_unused]] const Noise& noise,
+                         [[maybe_unused]] Observations& observations) {
+  if constexpr (reprojects_into_past<Matcher, Camera, Noise>::value)
+    matcher.reproject_into_past(history, frame, history.filter_from_current(motion), camera, noise, observations);
+}
+
+/// And the motion may be refined by what was seen there.
+template <class EgoMotion, class Camera>
+void refine([[maybe_unused]] EgoMotion& ego_motion, [[maybe_unused]] Observations& observations,
+            [[maybe_unused]] const Camera& camera, [[maybe_unused]] const MotionPrior& expected,
+            [[maybe_unused]] Motion& motion, [[maybe_unused]] Workspace& workspace) {
+  if constexpr (refines<EgoMotion, Camera>::value)
+    if (!observations.matches.past_observations.frames().empty())
+      ego_motion.refine(observations, camera, expected, motion, workspace);
+}
+
+/// A gate may learn from what is known to stand, between classifier and memory; a matcher from what moves, after it.
+template <class Policy>
+void learn(Policy& policy, const Observations& observations, span<const Label> labels) {
+  if constexpr (learns<Policy>::value) policy.learn(observations, labels);
+}
+
+/// A prior or a gate may remember frames: these are forgotten with all others.
+template <class Policy>
+void reset_policy(Policy& policy) {
+  if constexpr (resets<Policy>::value) policy.reset();
+}
+
+}  // namespace stillpoint

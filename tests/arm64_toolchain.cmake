@@ -1,0 +1,18 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# Debian's cross compiler, with the libraries of a folder made by arm64.sh: -DSTILLPOINT_SYSROOT=FOLDER. Programs, as those
+# that list tests, run in qemu-user.
+
+list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES STILLPOINT_SYSROOT)
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_SYSROOT "${STILLPOINT_SYSROOT}")
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static -L "${STILLPOINT_SYSROOT}")
+
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)

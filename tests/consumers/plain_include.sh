@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+# plain_include.sh COMPILER STANDARD: project/ as a host without CMake compiles it, with -I: no header is a system header
+# there, and none may draw a warning that the host has asked for. One file of all sources, as they share most of the
+# headers (-Wno-return-type: each `main` goes by another name there); the shim's alone, in C++11 as well. EIGEN_INCLUDE and OPENCV_INCLUDE: where those are, if not where Debian has them.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+compiler=$1
+flags=(-fsyntax-only -O1 -Wall -Wextra -Wno-return-type -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion -Werror
+  -Iinclude -Ishim/include -I. -isystem "${EIGEN_INCLUDE:-/usr/include/eigen3}"
+  -isystem "${OPENCV_INCLUDE:-/usr/include/opencv4}" -x c++ -)
+if "$compiler" -Werror -Wuseless-cast -fsyntax-only -x c++ - <<< 'int i;' 2> /dev/null; then
+  flags=(-Wuseless-cast "${flags[@]}")
+fi
+
+sources=(core_only with_opencv with_options)
+[[ ! -e ${OPENCV_INCLUDE:-/usr/include/opencv4}/opencv2/dnn.hpp ]] || sources+=(with_detector)
+{
+  for source in "${sources[@]}"; do
+    printf '#define main %s_main\n#include "tests/consumers/project/%s.cpp"\n#undef main\n' "$source" "$source"
+    printf 'int %s_main();\n' "$source"
+  done
+  # What each of a host's keypoint types draws in.
+  echo '#include <opencv2/core/types.hpp>'
+  for keypoint in cv::KeyPoint cv::Point2f cv::Point2d stillpoint::Vector2f stillpoint::Vector2d; do
+    printf 'template stillpoint::span<const stillpoint::Vector2f> stillpoint::read_pixels(const std::vector<%s>&, %s);\n' \
+      "$keypoint" 'std::vector<stillpoint::Vector2f>&'
+  done
+} | "$compiler" "-std=$2" "${flags[@]}"
+for standard in c++11 "$2"; do
+  "$compiler" "-std=$standard" "${flags[@]}" <<< '#include <stillpoint_shim.hpp>'
+done
+echo "$compiler -std=$2: no warning"

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/pipeline/frame_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <opencv2/core.hpp>
+
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
+
+namespace stillpoint::frame_check_test {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+class FrameCheckTest : public testing::Test {
+ protected:
+  Status check(const FrameView& frame, std::optional<double> last_s = 1.0) const {
+    return FrameCheck{}(frame, last_s, camera_);
+  }
+  Status check(const cv::Mat& image, const DepthView& depth) const { return check(FrameView(image, depth, 1.1)); }
+
+  Camera camera_{5, 5, 4, 3, 8, 6};
+  cv::Mat gray_ = cv::Mat(6, 8, CV_8UC1, cv::Scalar(0));
+  cv::Mat colour_ = cv::Mat(6, 8, CV_8UC3, cv::Scalar(0));
+  cv::Mat depth_ = cv::Mat(6, 8, CV_16UC1, cv::Scalar(0));
+};
+
+TEST_F(FrameCheckTest, TakesGrayAndColourWithAnyDepth) {
+  const cv::Mat float_depth(3, 4, CV_32FC1);
+  for (const cv::Mat& image : {gray_, colour_}) {
+    EXPECT_EQ(check(image, DepthView::tum(depth_)), Status::ok);
+    EXPECT_EQ(check(image, DepthView::tum(float_depth)), Status::ok) << "another size is fine";
+    EXPECT_EQ(check(image, DepthView()), Status::ok);
+  }
+}
+
+TEST_F(FrameCheckTest, NamesImagesItCannotRead) {
+  EXPECT_EQ(check(cv::Mat(), DepthView::tum(depth_)), Status::no_image);
+  EXPECT_EQ(check(FrameView()), Status::no_image);
+  for (const int type : {CV_16SC3, CV_32FC1, CV_16UC1, CV_8UC4, CV_8SC1})
+    EXPECT_EQ(check(cv::Mat(6, 8, type, cv::Scalar(0)), DepthView::tum(depth_)), Status::unsupported_image) << type;
+}
+
+TEST_F(FrameCheckTest, NamesDepthsItCannotRead) {
+  for (const int type : {CV_8UC1, CV_8UC3, CV_64FC1, CV_32FC3, CV_16SC1})
+    EXPECT_EQ(check(gray_, DepthView(cv::Mat(6, 8, type, cv::Scalar(0)))), Status::unsupported_image) << type;
+  for (const double factor : {0.0, -5000.0, kNaN, 1e-300, 1e300})
+    EXPECT_EQ(check(gray_, DepthView(depth_, factor)), Status::depth_unit_missing) << factor;
+  EXPECT_EQ(check(gray_, DepthView(depth_)), Status::depth_unit_missing) << "16 bit has no default";
+  EXPECT_EQ(check(gray_, DepthView::millimetres(depth_)), Status::ok);
+  EXPECT_EQ(check(gray_, DepthView(cv::Mat(6, 8, CV_32FC1, cv::Scalar(2)))), Status::ok)
+      << "float metres have no factor";
+}
+
+// A room in millimetres: half a metre is 500. One far wall among near things is none.
+TEST_F(FrameCheckTest, NamesDepthsBeyondAKilometre) {
+  cv::Mat depth(6, 8, CV_32FC1, cv::Scalar(2000));
+  EXPECT_EQ(check(gray_, DepthView(depth)), Status::implausible_depth);
+  depth.colRange(0, 4).setTo(2);
+  EXPECT_EQ(check(gray_, DepthView(depth)), Status::ok) << "half, not more";
+  depth.setTo(0);
+  EXPECT_EQ(check(gray_, DepthView(depth)), Status::ok) << "none at all";
+}
+
+// A gray image in the place of the colour one would be read three times as wide as it is.
+TEST_F(FrameCheckTest, NamesImagesInTheWrongPlace) {
+  FrameView frame;
+  frame.timestamp_s = 1.1;
+  frame.colour = gray_;
+  EXPECT_EQ(check(frame), Status::unsupported_image);
+  frame.gray = gray_;
+  EXPECT_EQ(check(frame), Status::unsupported_image);
+  frame.colour = colour_;
+  EXPECT_EQ(check(frame), Status::ok);
+  frame.gray = colour_;
+  EXPECT_EQ(check(frame), Status::unsupported_image);
+  frame.gray = gray_;
+  const cv::Mat other_size(3, 4, CV_8UC3, cv::Scalar(0));
+  frame.colour = other_size;
+  EXPECT_EQ(check(frame), Status::size_changed);
+}
+
+TEST_F(FrameCheckTest, NamesAnotherSize) {
+  EXPECT_EQ(check(cv::Mat(6, 7, CV_8UC1, cv::Scalar(0)), DepthView()), Status::size_changed);
+  EXPECT_EQ(check(cv::Mat(8, 6, CV_8UC1, cv::Scalar(0)), DepthView()), Status::size_changed);
+}
+
+TEST_F(FrameCheckTest, NamesTimesThatDoNotFollow) {
+  const auto at = [this](double time_s, std::optional<double> last_s) {
+    return check(FrameView(gray_, DepthView(), time_s), last_s);
+  };
+  EXPECT_EQ(at(1.0, std::nullopt), Status::first_frame);
+  EXPECT_EQ(at(1.1, 1.0), Status::ok);
+  EXPECT_EQ(at(2.0, 1.0), Status::ok) << "exactly the longest gap";
+  EXPECT_EQ(at(2.001, 1.0), Status::time_gap);
+  EXPECT_EQ(at(1.0, 1.0), Status::duplicate_frame);
+  EXPECT_EQ(at(0.999, 1.0), Status::out_of_order);
+  EXPECT_EQ(at(-100.0, 1.0), Status::out_of_order);
+  for (const double no_time : {kNaN, kInfinity, -kInfinity}) {
+    EXPECT_EQ(at(no_time, 1.0), Status::invalid_time);
+    EXPECT_EQ(at(no_time, std::nullopt), Status::invalid_time);
+  }
+  FrameCheck patient;
+  patient.options.longest_gap_s = 10.0;
+  EXPECT_EQ(patient(FrameView(gray_, DepthView(), 11.0), 1.0, camera_), Status::ok);
+}
+
+TEST_F(FrameCheckTest, RejectsWhatIsNoFrame) {
+  for (const Status status : {Status::no_image, Status::unsupported_image, Status::size_changed, Status::invalid_time,
+                              Status::duplicate_frame})
+    EXPECT_TRUE(FrameCheck::rejects(status)) << to_string(status);
+  for (const Status status : {Status::ok, Status::first_frame, Status::out_of_order, Status::time_gap})
+    EXPECT_FALSE(FrameCheck::rejects(status)) << to_string(status);
+}
+
+TEST(FrameHistory, IsARingOfCopiesNewestFirst) {
+  FrameHistory history(3);
+  EXPECT_TRUE(history.empty());
+  cv::Mat gray(2, 2, CV_8UC1), depth(1, 2, CV_16UC1);
+  for (int i = 1; i <= 5; ++i) {
+    gray.setTo(i);
+    depth.setTo(100 * i);
+    Pose pose = Pose::Identity();
+    pose.translation().x() = i;
+    history.push(FrameView(gray, DepthView(depth, 1000.0 * i), 0.1 * i), pose);
+    ASSERT_EQ(history.size(), static_cast<std::size_t>(std::min(i, 3)));
+    for (int age = 1; age <= std::min(i, 3); ++age) {
+      const PastFrame& past = history.back(static_cast<std::size_t>(age));
+      const int k = i + 1 - age;
+      EXPECT_EQ(past.timestamp_s, 0.1 * k);
+      EXPECT_EQ(past.filter_from_camera.translation().x(), k);
+      const FrameView view = past.view();
+      EXPECT_EQ(view.timestamp_s, 0.1 * k);
+      EXPECT_NE(view.gray.data, gray.data) << "the host's image may die";
+      EXPECT_EQ(view.gray.row<std::uint8_t>(1)[1], k);
+      EXPECT_EQ(view.depth.metres(1, 0), 0.1f) << "100 k / (1000 k)";
+    }
+  }
+  history.clear();
+  EXPECT_TRUE(history.empty());
+  EXPECT_EQ(FrameHistory(0).size(), 0u);
+}
+
+TEST(FrameHistory, ChainsMotionsAndForgetsWhatNoneLeadsTo) {
+  FrameHistory history(3);
+  const cv::Mat gray(2, 2, CV_8UC1, cv::Scalar(0));
+  const auto push = [&](double time_s, Status status, double step_m) {
+    Motion motion;
+    motion.status = status;
+    motion.current_from_reference.translation().x() = step_m;
+    history.push(FrameView(gray, DepthView(), time_s), motion);
+  };
+  push(1.0, Status::first_frame, 9.0);
+  EXPECT_EQ(history.back(1).filter_from_camera.translation().x(), 0.0) << "the first frame is the world";
+  push(1.1, Status::ok, -0.25);
+  push(1.2, Status::ok, -0.5);
+  // Points that move by −x in the camera: the camera moves by +x.
+  EXPECT_EQ(history.back(1).filter_from_camera.translation().x(), 0.75);
+  EXPECT_EQ(history.back(2).filter_from_camera.translation().x(), 0.25);
+  push(1.3, Status::no_consensus, -1.0);
+  EXPECT_EQ(history.size(), 1u) << "the older frames are of another world";
+  EXPECT_EQ(history.back(1).timestamp_s, 1.3);
+}
+
+TEST(FrameHistory, ForgetsADepthThatIsGone) {
+  FrameHistory history(1);
+  const cv::Mat gray(2, 2, CV_8UC1, cv::Scalar(0)), depth(2, 2, CV_16UC1, cv::Scalar(5000));
+  history.push(FrameView(gray, DepthView::tum(depth), 1.0), Pose::Identity());
+  EXPECT_FALSE(history.back(1).view().depth.empty());
+  history.push(FrameView(gray, DepthView(), 1.1), Pose::Identity());
+  EXPECT_TRUE(history.back(1).view().depth.empty());
+}
+
+}  // namespace
+}  // namespace stillpoint::frame_check_test

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// Every single replacement of a stage in every set that we ship, and the pairs that only go together: it does not
+// compile, or it finds who walks.
+
+#include "stillpoint/pipeline/stage_fit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "backends/followed_corners.hpp"
+#include "stillpoint/evaluation/feature_score.hpp"
+#include "stillpoint/match/corner_tracker.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/policies.hpp"
+#include "stillpoint/stillpoint.hpp"
+#include "stillpoint/synthetic/renderer.hpp"
+#include "stillpoint/synthetic/scenes.hpp"
+#include "unit/pipeline/scene_run.hpp"
+
+// The sanitizers' build sees each stage in the other tests: sixty filters more would take it minutes to compile.
+#ifndef __SANITIZE_ADDRESS__
+
+namespace stillpoint::stage_fit_test {
+namespace {
+
+// clang-format off
+template <class Set, class T> struct WithDepthLookup : Set { using DepthLookup = T; };
+template <class Set, class T> struct WithPrior : Set { using Prior = T; };
+template <class Set, class T> struct WithMatcher : Set { using Matcher = T; };
+template <class Set, class T> struct WithEgoMotion : Set { using EgoMotion = T; };
+template <class Set, class T> struct WithScorer : Set { using Scorer = T; };
+template <class Set, class T> struct WithGate : Set { using Gate = T; };
+template <class Set, class T> struct WithClassifier : Set { using Classifier = T; };
+template <class Set, class T> struct WithMemory : Set { using Memory = T; };
+template <class Set, class T> struct WithKeepFloor : Set { using KeepFloor = T; };
+// clang-format on
+
+/// Two people walk past a hand-held camera; every keypoint knows where it was, as optical flow saw it.
+struct Walk {
+  struct Frame {
+    SyntheticFrame images;
+    std::vector<Vector2f> pixels, reference_pixels;
+  };
+  synthetic::Scene scene = synthetic::walking_people(scene_run::small(40));
+  std::vector<Frame> frames;
+
+  Walk() {
+    SyntheticSequence sequence(scene);
+    examples::FollowedCorners corners(300);
+    for (int f = 0; f < sequence.size(); ++f) {
+      Frame frame;
+      sequence.render(f, frame.images);
+      corners.next(as_mat(frame.images.gray.view()));
+      frame.pixels = corners.pixels;
+      frame.reference_pixels = corners.reference_pixels;
+      frames.push_back(std::move(frame));
+    }
+  }
+  static const Walk& the() {
+    static const Walk walk;
+    return walk;
+  }
+};
+
+/// Recall and false-positive rate of a set on the walk, with a box round each person.
+template <class Set>
+FilterScore score_of() {
+  FrameFilter<Set> filter(Walk::the().scene.camera);
+  FilterScore score;
+  for (const Walk::Frame& frame : Walk::the().frames) {
+    if constexpr (!std::is_same_v<typename Set::Prior, NoPrior>)
+      for (const synthetic::TruthBox& box : frame.images.boxes)
+        filter.prior.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y),
+                                            static_cast<float>(box.width), static_cast<float>(box.height)},
+                                           Mobility::dynamic,
+                                           1.0f});
+    if constexpr (std::is_same_v<typename Set::Matcher, ProvidedMatches>)
+      filter.matcher.reference_pixels = frame.reference_pixels;
+    const FrameResult& result = filter.filter_frame(frame.images.view(), frame.pixels);
+    score.add_frame(frame.images.labels.view(), frame.pixels, result.keep());
+  }
+  return score;
+}
+
+/// What a set does to the walk, or that it would not compile.
+struct Expected {
+  double least_recall, most_false_positives;
+};
+
+template <class Set>
+void expect_finds_or_refused(const char* name, const Expected& expected, int& refused) {
+  if constexpr (fit_together(NeedsOf<Set>{})) {
+    const FilterScore score = score_of<Set>();
+    EXPECT_GE(*score.recall(), expected.least_recall) << name;
+    EXPECT_LE(*score.false_alarms(), expected.most_false_positives) << name;
+  } else {
+    ++refused;
+  }
+}
+
+#define EXPECT_REPLACED(STAGE, TYPE)                        \
+  if constexpr (!std::is_same_v<typename Set::STAGE, TYPE>) \
+  expect_finds_or_refused<With##STAGE<Set, TYPE>>(#STAGE " = " #TYPE, expected, refused)
+
+/// @return  how many replacements do not compile
+template <class Set>
+int replace_each(const Expected& expected) {
+  int refused = 0;
+  expect_finds_or_refused<Set>("as it is", expected, refused);
+  EXPECT_EQ(refused, 0);
+  EXPECT_REPLACED(DepthLookup, RoundedDepth);
+  EXPECT_REPLACED(DepthLookup, GuardedDepth);
+  EXPECT_REPLACED(DepthLookup, NoDepth);
+  EXPECT_REPLACED(Prior, BoxPrior);
+  EXPECT_REPLACED(Prior, ForegroundPrior);
+  EXPECT_REPLACED(Prior, PropagatedPrior);
+  EXPECT_REPLACED(Matcher, LucasKanade);
+  EXPECT_REPLACED(Matcher, PatchMatcher);
+  EXPECT_REPLACED(Matcher, ProvidedMatches);
+  EXPECT_REPLACED(Matcher, CornerTracker);
+  EXPECT_REPLACED(EgoMotion, EpipolarMotion);
+  EXPECT_REPLACED(EgoMotion, MonocularMotion);
+  EXPECT_REPLACED(EgoMotion, RigidMotion);
+  EXPECT_REPLACED(EgoMotion, SupportMotion);
+  EXPECT_REPLACED(Scorer, OffsetScore);
+  EXPECT_REPLACED(Scorer, SampsonScore);
+  EXPECT_REPLACED(Scorer, ReprojectionScore);
+  EXPECT_REPLACED(Gate, MeanGate);
+  EXPECT_REPLACED(Gate, TailGate);
+  EXPECT_REPLACED(Classifier, RegionClusters);
+  EXPECT_REPLACED(Classifier, SurfaceClusters);
+  EXPECT_REPLACED(Classifier, FlowNeighbours);
+  EXPECT_REPLACED(Memory, NoMemory);
+  EXPECT_REPLACED(Memory, EvidenceMemory);
+  EXPECT_REPLACED(KeepFloor, NoKeepFloor);
+  EXPECT_REPLACED(KeepFloor, stillpoint::KeepFloor);
+  return refused;
+}
+
+// Refused are, of DefaultPolicies: NoDepth, LucasKanade, CornerTracker, MonocularMotion, OffsetScore, SampsonScore (it
+// needs the host's matches), MeanGate, RegionClusters and NoMemory.
+TEST(StageFit, EachReplacementInDefaultPoliciesFindsWhoWalksOrIsRefused) {
+  EXPECT_EQ((replace_each<DefaultPolicies>({0.75, 0.06})), 9);
+}
+
+// PatchMatcher and CornerTracker (they take depth), the three motions in metres, OffsetScore, ReprojectionScore,
+// MeanGate, RegionClusters, SurfaceClusters and NoMemory. What moves along its epipolar line is not found by what is
+// left.
+TEST(StageFit, EachReplacementInMonocularPoliciesFindsWhoWalksOrIsRefused) {
+  EXPECT_EQ((replace_each<MonocularPolicies>({0.25, 0.04})), 11);
+}
+
+// NoDepth, PatchMatcher and CornerTracker (they do not match the host's features), MonocularMotion, ReprojectionScore,
+// TailGate (it needs nats), SurfaceClusters, FlowNeighbours and EvidenceMemory. The paper drops what lies in the boxes'
+// corners as well.
+TEST(StageFit, EachReplacementInPaperPoliciesFindsWhoWalksOrIsRefused) {
+  EXPECT_EQ((replace_each<PaperPolicies>({0.3, 0.4})), 9);
+}
+
+TEST(StageFit, EachReplacementInPaperRigidPoliciesFindsWhoWalksOrIsRefused) {
+  EXPECT_EQ((replace_each<PaperRigidPolicies>({0.25, 0.4})), 9);
+}
+
+TEST(StageFit, WithoutAPriorTheDefaultFindsWhoWalksAndThePaperNothing) {
+  EXPECT_GE((*score_of<WithPrior<DefaultPolicies, NoPrior>>().recall()), 0.75);
+  EXPECT_GE((*score_of<WithPrior<MonocularPolicies, NoPrior>>().recall()), 0.25);
+  EXPECT_EQ((*score_of<WithPrior<PaperPolicies, NoPrior>>().recall()), 0.0) << "it tests features inside boxes only";
+}
+
+// ---- Pairs that only go together ----
+
+struct PaperDecides : DefaultPolicies {  // the engine's evidence, the paper's clusters
+  using Classifier = RegionClusters;
+  using Memory = NoMemory;
+  using Gate = MeanGate;
+};
+struct TwoFrames : DefaultPolicies {  // Lucas-Kanade and the paper's score
+  using Matcher = LucasKanade;
+  using Scorer = OffsetScore;
+  using Gate = MeanGate;
+  using Classifier = RegionClusters;
+  using Memory = NoMemory;
+};
+struct TwoFramesByEpipolarLines : DefaultPolicies {
+  using Matcher = LucasKanade;
+  using Scorer = SampsonScore;
+};
+
+TEST(StageFit, PairsThatNeedEachOtherFindWhoWalks) {
+  int refused = 0;
+  expect_finds_or_refused<PaperDecides>("RegionClusters, NoMemory, MeanGate", {0.5, 0.4}, refused);
+  expect_finds_or_refused<TwoFrames>("LucasKanade and OffsetScore", {0.3, 0.4}, refused);
+  expect_finds_or_refused<TwoFramesByEpipolarLines>("LucasKanade and SampsonScore", {0.3, 0.06}, refused);
+  EXPECT_EQ(refused, 0);
+}
+
+}  // namespace
+}  // namespace stillpoint::stage_fit_test
+
+#endif
