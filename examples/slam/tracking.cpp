@@ -115,10 +115,8 @@ void Tracking::add_up_told_motion() {
   told_.reset();
 }
 
-Pose Tracking::expected_motion() const {
-  const bool has_velocity = misses_ == 0 && fitting_ >= options.fewest_for_velocity;
-  return told_since_pose_ && !has_velocity ? *told_since_pose_ : motion_;
-}
+/// As the filter says, or as it went on last. A velocity from few points is soon a mover's.
+Pose Tracking::expected_motion() const { return told_since_pose_ ? *told_since_pose_ : motion_; }
 
 std::vector<PointId> Tracking::local_points(const Map& map, span<const PointId> seen) const {
   std::vector<KeyframeId> keyframes;

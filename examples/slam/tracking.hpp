@@ -22,9 +22,8 @@ class Tracking {
     PointSearch search;          ///< from a pose that is only expected
     PointSearch refined_search;  ///< from one that was solved
     std::size_t local_keyframes = 12;
-    int fewest_shared = 5;                 ///< points by which a keyframe belongs to the local map
-    std::size_t fewest = 20;               ///< features that fit: fewer are no pose
-    std::size_t fewest_for_velocity = 80;  ///< that must have fitted for the own velocity to be believed
+    int fewest_shared = 5;    ///< points by which a keyframe belongs to the local map
+    std::size_t fewest = 20;  ///< features that fit: fewer are no pose
     Options() {
       refined_search.window_px = 5.0;
       refined_search.second_best = 0.95;
