@@ -2,7 +2,7 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# bench/accuracy.sh [DATA [FRAMES]]: measures what each correction is worth and writes the tables into docs/ablation.md, between
+# bench/accuracy.sh [DATA [FRAMES]]: measures what each correction is worth and writes the tables into docs/design/ablation.md, between
 # its markers. DATA is a folder with kitchen_walk, kitchen_box and kitchen_static, unless told ../shared/data; without
 # it there are the synthetic scenes alone. FRAMES of each sequence, all unless told. About ten minutes on two free cores.
 set -euo pipefail
@@ -22,7 +22,7 @@ cmake -S . -B build/ratios -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUIL
   -DSTILLPOINT_BUILD_EXAMPLES=OFF > /dev/null
 cmake --build build/ratios --target stillpoint_accuracy >&2
 
-page=docs/ablation.md
+page=docs/design/ablation.md
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 build/ratios/bench/stillpoint_accuracy "$data" "$@" > "$work/tables"

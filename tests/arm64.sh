@@ -60,7 +60,7 @@ fi
 # ThreadSanitizer needs more of a kernel than qemu-user is.
 nice -n 10 cmake -S . -B "$folder/build" -G Ninja -DCMAKE_TOOLCHAIN_FILE=tests/arm64_toolchain.cmake \
   "-DSTILLPOINT_SYSROOT=$sysroot" -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_EXAMPLES=OFF -DSTILLPOINT_BUILD_BENCHMARKS=OFF \
-  -DSTILLPOINT_BUILD_DOCS=OFF -DSTILLPOINT_HAS_THREAD_SANITIZER=OFF
+  -DSTILLPOINT_BUILD_DOCS=OFF -DSTILLPOINT_HAS_THREAD_SANITIZER=OFF -DSTILLPOINT_TEST_TIMEOUT_S=3600
 nice -n 10 cmake --build "$folder/build" --target stillpoint_unit_tests -j"$jobs"
 took built
 status=0

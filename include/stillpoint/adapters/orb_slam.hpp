@@ -88,8 +88,9 @@ std::size_t compact_after_depth(span<const std::uint8_t> keep, Frame& frame, Mor
   if constexpr (detail::FrameWithDepth<Frame>::holds) {
     if (keep.size() > 0 && frame.mvKeysUn.empty() && !frame.mvKeys.empty())
       throw Error(
-          "orb_slam: mvKeysUn is empty, which is so in a Frame of two fisheye cameras; expected one entry a key "
-          "point, or compact_mono_first for each camera after extraction");
+          "orb_slam: mvKeysUn is empty, which is so in a Frame of two fisheye cameras; expected one entry per "
+          "keypoint, "
+          "or compact_mono_first for each camera after extraction");
     const std::size_t kept = detail::compact_unless_all(
         keep, host_array("mvKeys", frame.mvKeys), host_array("mvKeysUn", frame.mvKeysUn),
         host_array("mvuRight", frame.mvuRight), host_array("mvDepth", frame.mvDepth),

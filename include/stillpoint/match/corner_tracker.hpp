@@ -25,8 +25,8 @@
 
 namespace stillpoint {
 
-/// Appends support corners, one a grid cell, to the features and finds them in the reference frame. The host's own key
-/// points are not followed: they are looked for later, where the camera's motion puts them.
+/// Appends support corners, one a grid cell, to the features and finds them in the reference frame. The host's own
+/// keypoints are not followed: they are looked for later, where the camera's motion puts them.
 class CornerTracker {
  public:
   using Needs = Capabilities<capability::metric_depth>;

@@ -19,7 +19,7 @@
 
 namespace stillpoint {
 
-/// Counts frames that look like wrong use. It changes no verdict. docs/wrong_use.md lists what it sees.
+/// Counts frames that look like wrong use. It changes no verdict. docs/statuses.md lists what it sees.
 class UseCheck {
  public:
   /// A frame was filtered.

@@ -11,7 +11,8 @@ endif()
 
 get_cmake_property(new_variables CACHE_VARIABLES)
 list(REMOVE_ITEM new_variables ${variables_before})
-list(FILTER new_variables EXCLUDE REGEX "^(STILLPOINT_|stillpoint_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_|OpenCV_|Eigen3_|yaml-cpp_|CMAKE_)")
+# CMAKE_ and _GNUInstallDirs_ are of CMake's own modules.
+list(FILTER new_variables EXCLUDE REGEX "^(_GNUInstallDirs_|STILLPOINT_|stillpoint_|FETCHCONTENT_|FIND_PACKAGE_MESSAGE_|OpenCV_|Eigen3_|yaml-cpp_|CMAKE_)")
 if(COMPONENT STREQUAL "onnxruntime")
   list(FILTER new_variables EXCLUDE REGEX "^(ONNXRUNTIME_|onnxruntime_DIR)")
 endif()
@@ -41,9 +42,11 @@ if(folder)
 endif()
 
 # To the host these are headers of the system.
-get_target_property(system_folders stillpoint::core INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
-if(folder AND NOT system_folders MATCHES "${LIBRARY}/include")
-  message(FATAL_ERROR "system include folders are '${system_folders}', without the library's")
+if(folder AND TARGET stillpoint::core)
+  get_target_property(system_folders stillpoint::core INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
+  if(NOT system_folders MATCHES "${LIBRARY}/include")
+    message(FATAL_ERROR "system include folders are '${system_folders}', without the library's")
+  endif()
 endif()
 
 # What a host links carries no flags.

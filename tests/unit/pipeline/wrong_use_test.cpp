@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// What a host may get wrong, on a synthetic room: each must be said. The table is docs/wrong_use.md's.
+// What a host may get wrong, on a synthetic room: each must be said. The table is docs/statuses.md's.
 
 #include <gtest/gtest.h>
 
