@@ -32,7 +32,7 @@ bool Tracking::locate_from(const Pose& camera_from_world, span<const PointId> se
   options.search(map, local, camera_, camera_from_world, frame, matches_);
   see(frame, map, matches_, noise);
   Pose pose = camera_from_world;
-  if (!solve(sightings_, camera_, pose, inlier_)) return false;
+  if (!solve(observations_, camera_, pose, inlier_)) return false;
   frame.camera_from_world = pose;
   return refine(frame, map, local, noise);
 }
@@ -45,7 +45,7 @@ bool Tracking::refine(Frame& frame, Map& map, span<const PointId> local, const M
   options.refined_search(map, local, camera_, frame.camera_from_world, frame, matches_, &expected);
   see(frame, map, matches_, noise);
   Pose pose = frame.camera_from_world;
-  fitting_ = solve.refine(sightings_, camera_, pose, inlier_);
+  fitting_ = solve.refine(observations_, camera_, pose, inlier_);
   if (fitting_ < options.fewest) return false;
   frame.camera_from_world = pose;
   for (const PointId id : expected) ++map.point(id).visible;
@@ -129,12 +129,12 @@ std::vector<PointId> Tracking::local_points(const Map& map, span<const PointId> 
 }
 
 void Tracking::see(const Frame& frame, const Map& map, span<const PointMatch> matches, const MeasurementNoise& noise) {
-  sightings_.clear();
+  observations_.clear();
   for (const PointMatch& match : matches) {
     const MapPoint& point = map.point(match.point);
     const auto i = static_cast<std::size_t>(match.feature);
     const double depth_m = frame.depth_m[i];
-    sightings_.push_back({point.p_world, frame.pixel[i], noise.pixel(frame.octave(match.feature)), depth_m,
+    observations_.push_back({point.p_world, frame.pixel[i], noise.pixel(frame.octave(match.feature)), depth_m,
                           noise.depth_m(depth_m), point.sigma_m(), frame.features.weights[i], i});
   }
 }

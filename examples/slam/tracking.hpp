@@ -71,7 +71,7 @@ class Tracking {
 
   Camera camera_;
   std::vector<PointMatch> matches_;
-  std::vector<PointSighting> sightings_;
+  std::vector<PointObservation> observations_;
   std::vector<std::uint8_t> inlier_;
   KeyframeId reference_ = kNone;  ///< the keyframe that shares most with the last frame
   Pose camera_from_reference_ = Pose::Identity();
