@@ -58,7 +58,7 @@ if(STILLPOINT_WITH_OPENCV)
 
   # stillpoint::compiled: the filter as a library, for hosts with the same compiler flags.
   if(STILLPOINT_BUILD_COMPILED)
-    add_subdirectory("${PROJECT_SOURCE_DIR}/compiled" "${PROJECT_BINARY_DIR}/compiled")
+    add_subdirectory("${PROJECT_SOURCE_DIR}/cmake/compiled" "${PROJECT_BINARY_DIR}/compiled")
     list(APPEND STILLPOINT_COMPONENTS compiled)
   endif()
 

@@ -50,7 +50,7 @@ class PoseRefinement {
   Options options;
 
   /// @param camera_from_world start of the search, and the result
-  /// @param inlier one flag a observation: whether it fits the result
+  /// @param inlier one flag per observation: whether it fits the result
   /// @return how many do
   std::size_t operator()(span<const PointObservation> observations, const Camera& camera, Pose& camera_from_world,
                          std::vector<std::uint8_t>& inlier) {
@@ -181,7 +181,7 @@ class PoseRefinement {
     return stillpoint::orthonormalized(motion * camera_from_world);
   }
 
-  std::vector<Matrix3d> whitening_;  ///< one a observation
+  std::vector<Matrix3d> whitening_;  ///< one per observation
 };
 
 }  // namespace examples

@@ -66,7 +66,7 @@ class RobustPose {
   PoseRefinement refine;
 
   /// @param camera_from_world  the expected pose, and the result; changed only where there is one
-  /// @param inlier             one flag a observation: whether it fits the result
+  /// @param inlier             one flag per observation: whether it fits the result
   /// @return                   whether there is a pose
   bool operator()(span<const PointObservation> observations, const Camera& camera, Pose& camera_from_world,
                   std::vector<std::uint8_t>& inlier) {

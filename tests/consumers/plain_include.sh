@@ -4,7 +4,8 @@
 
 # plain_include.sh COMPILER STANDARD: project/ as a host without CMake compiles it, with -I: no header is a system header
 # there, and none may draw a warning that the host has asked for. One file of all sources, as they share most of the
-# headers (-Wno-return-type: each `main` goes by another name there); the shim's alone, in C++11 as well. EIGEN_INCLUDE and OPENCV_INCLUDE: where those are, if not where Debian has them.
+# headers (-Wno-return-type: each `main` goes by another name there); the shim's alone, in C++11 as well. EIGEN_INCLUDE and
+# OPENCV_INCLUDE: where those are, if not where Debian has them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 compiler=$1

@@ -16,7 +16,7 @@
 
 namespace stillpoint {
 
-/// What is known of a object's class (the paper, 3.2: static, dynamic, "potential dynamic").
+/// What is known of an object's class (the paper, 3.2: static, dynamic, "potential dynamic").
 enum class Mobility : std::uint8_t {
   unknown,
   fixed,    ///< wall, television, table: the paper's "static"
@@ -75,8 +75,8 @@ struct Detection {
   float confidence = 1.0f;  ///< 0 to 1
   double nearest_m = 0.0;   ///< depth of the object itself: what is nearer or farther in its box is something else …
   double farthest_m = std::numeric_limits<double>::infinity();  ///< … seen past it; metres, half way down the box
-  double depth_slope_m =
-      0.0;  ///< a object that leans, or is looked down on: so much farther from the top to the bottom
+  /// An object that leans, or is looked down on: so much farther from the top to the bottom.
+  double depth_slope_m = 0.0;
   std::shared_ptr<const BoxMask> mask =
       nullptr;                    ///< none: all of the box; shared, so that a detection can be copied freely
   std::int16_t class_index = -1;  ///< in the detector's list of classes, for overlays; -1: not known

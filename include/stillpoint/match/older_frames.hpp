@@ -16,6 +16,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/surface_search.hpp"
 #include "stillpoint/pipeline/frame_history.hpp"
 
@@ -95,19 +96,23 @@ void predict_places(const Pose& reference_from_current, const Camera& camera, Ma
   }
 }
 
-/// Before the motion is known: chooses the older frames, and finds the surfaces in the last one.
+/// Before the motion is known: chooses the older frames, finds the surfaces in the last one, and distrusts what came
+/// where the views of the past seconds saw free space.
 /// @param filter_from_expected  where the camera is expected now
 template <class Camera, class Noise>
-void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& surfaces, const FrameHistory& history,
-                         const FrameView& current, const Pose& filter_from_expected, const Camera& camera,
-                         const Noise& noise, Matches& matches, Workspace& workspace) {
+void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& surfaces, const SpaceSearch& space,
+                         const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
+                         const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) {
   choice.choose(history, current, camera, matches, workspace);
   surfaces.collect(current, camera, noise, matches.past_observations.surfaces);
   const span<OlderFrame> frames = matches.past_observations.frames();
-  if (frames.empty()) return;
-  look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.past_observations.surfaces,
-                    frames.first(1));
-  predict_places(frames[0].reference_from_current, camera, matches);
+  if (!frames.empty()) {
+    look_for_surfaces(surfaces, history, filter_from_expected, camera, noise, matches.past_observations.surfaces,
+                      frames.first(1));
+    predict_places(frames[0].reference_from_current, camera, matches);
+  }
+  space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
+                           surfaces.scaled_step_px(camera), matches, workspace);
 }
 
 /// Where neither the last nor the oldest frame objects to feature `i` standing still, those between would not either.

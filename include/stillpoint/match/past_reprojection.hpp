@@ -50,10 +50,9 @@ class PastReprojection {
   void choose_keyframes(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,
                         const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) const {
     const OlderFrameChoice choice{options.slowest_m_s, options.pixel_sigma, options.longest_s};
-    choose_older_frames(choice, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
+    choose_older_frames(choice, surfaces, space, history, current, filter_from_expected, camera, noise, matches,
+                        workspace);
     order_by_place(matches, workspace);
-    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
-                             surfaces.scaled_step_px(camera), matches, workspace);
   }
 
   /// Looks for the surfaces once more, and for the features.

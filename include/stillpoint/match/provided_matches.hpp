@@ -82,10 +82,9 @@ class ProvidedMatches {
     if (history.capacity() < 2) return;
     matches.host_supports = true;
     tracks_.push(matches, history.capacity(), options.same_point_px, workspace);
-    choose_older_frames(older, surfaces, history, current, filter_from_expected, camera, noise, matches, workspace);
+    choose_older_frames(older, surfaces, space, history, current, filter_from_expected, camera, noise, matches,
+                        workspace);
     find_tracks_beside_occluders(current, camera, noise, matches);
-    space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
-                             surfaces.scaled_step_px(camera), matches, workspace);
   }
 
   /// Looks for the surfaces once more, and says where the features were.

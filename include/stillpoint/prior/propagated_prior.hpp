@@ -100,11 +100,11 @@ class PropagatedPrior : public ForegroundPrior {
 
  private:
   static constexpr double kHalfLife_s = 1.0;         // in which the confidence of an unseen box halves
-  static constexpr int kMostMissed = 8;              // a object that was missing in more answers in a row is forgotten
+  static constexpr int kMostMissed = 8;              // an object that was missing in more answers in a row is forgotten
   static constexpr double kGrowth_per_s = 0.2;       // share of its size by which an unseen box grows on each side
   static constexpr float kLeastOverlap = 0.2f;       // intersection over union: above, a new box is a carried object's
-  static constexpr double kMostJump_m = 0.2;         // of a object's depth between frames; more is something before it
-  static constexpr std::size_t kFewestFeatures = 4;  // on a object, to be carried by them
+  static constexpr double kMostJump_m = 0.2;         // of an object's depth between frames; more is something before it
+  static constexpr std::size_t kFewestFeatures = 4;  // on an object, to be carried by them
 
   /// Finds the depth of a carried object, which can't have jumped: then something else is before it, or it is behind
   /// something, and its old depth stays.

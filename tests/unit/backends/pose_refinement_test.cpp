@@ -84,7 +84,7 @@ TEST(PoseRefinement, WeightsSayHowMuchAnObservationPulls) {
 
 // A camera that went 0.5 m aside sees a point, 2 m off in the old view, 525 * 0.5 / 2 = 131 px further left. With an
 // old depth that was 3 % (0.06 m) too long it expects 525 * 0.5 / 2.06 = 127.4 px, 3.8 px off: at 0.5 px far beyond the
-// limit of 2.8 deviations, but with 0.05 m for the depth's own deviation (3.3 px here) it is as good a observation as
+// limit of 2.8 deviations, but with 0.05 m for the depth's own deviation (3.3 px here) it is as good an observation as
 // any.
 TEST(PoseRefinement, AnUncertainPointMayMissItsPixel) {
   Random random(3);
