@@ -115,8 +115,8 @@ bool LoopClosing::agrees(const Keyframe& keyframe, const Pose& camera_from_world
     const auto i = static_cast<std::size_t>(match.feature);
     const MapPoint& point = map.point(match.point);
     past_observations.push_back({point.p_world, keyframe.pixel[i], noise_.pixel(keyframe.octave(match.feature)),
-                         keyframe.depth_m[i], noise_.depth_m(keyframe.depth_m[i]), point.sigma_m(),
-                         keyframe.features.weights[i], i});
+                                 keyframe.depth_m[i], noise_.depth_m(keyframe.depth_m[i]), point.sigma_m(),
+                                 keyframe.features.weights[i], i});
   }
   refined = camera_from_world;
   std::vector<std::uint8_t> inlier;
