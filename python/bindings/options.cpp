@@ -4,6 +4,8 @@
 // FrameFilter.options: every option of the one table (core/options.hpp) as an attribute, under its name in
 // docs/tuning.md.
 
+#include <pybind11/stl.h>
+
 #include <cmath>
 #include <cstdint>
 #include <limits>
