@@ -4,10 +4,12 @@
 // ATE, RPE and recall, by the library's own evaluation.
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -40,7 +42,7 @@ Enum choice(const char* name, const std::string& word, const std::array<const ch
 /// A file, or rows of `timestamp tx ty tz qx qy qz qw`.
 Trajectory trajectory_of(const py::object& object, const std::string& name) {
   if (py::hasattr(object, "__fspath__") || py::isinstance<py::str>(object))
-    return stillpoint::read_trajectory(py::str(py::module_::import("os").attr("fspath")(object)).cast<std::string>());
+    return stillpoint::read_trajectory(object.cast<std::filesystem::path>());
   const py::array array = as_array(object, name, "a file, or a NumPy array with shape (N, 8)");
   if (array.size() == 0) return {};
   if (array.ndim() != 2 || array.shape(1) != 8)

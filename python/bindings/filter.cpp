@@ -4,9 +4,11 @@
 // FrameFilter and what it answers.
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,7 +67,7 @@ py::dict timings_of(const Result& result) {
   return timings;
 }
 
-std::string representation(const Result& result) {
+std::string result_text(const Result& result) {
   std::string text = "<FrameResult: " + std::string(to_string(result.frame.status())) + ", keeps " +
                      std::to_string(result.frame.kept_count()) + " of " + std::to_string(result.frame.size()) +
                      " features";
@@ -161,16 +163,16 @@ void bind_result(py::module_& module) {
 
   py::class_<Result>(module, "FrameResult",
                      "The answer for one frame: arrays with one entry per keypoint, in their order. It owns them.")
-      .def_readonly("keep", &Result::keep, "bool: True keeps the feature.")
-      .def_readonly("verdicts", &Result::verdicts, "uint8, values of Verdict.")
-      .def_readonly("reasons", &Result::reasons, "uint8, values of Reason.")
-      .def_readonly("scores", &Result::scores, "float32: grows with disagreement; NaN where there is none.")
-      .def_readonly("probabilities", &Result::probabilities, "float32: that the feature moves, 0 to 1; NaN if unknown.")
-      .def_readonly("weights", &Result::weights, "float32: what the feature may say in an estimate, 0 to 1.")
-      .def_readonly("clusters", &Result::clusters, "int32: index of its cluster, -1 for none.")
-      .def_readonly("depths_m", &Result::depths_m, "float64: its depth in metres, 0 for none.")
+      .def_readonly("keep", &Result::keep, "True keeps the feature.")
+      .def_readonly("verdicts", &Result::verdicts, "Values of Verdict.")
+      .def_readonly("reasons", &Result::reasons, "Values of Reason.")
+      .def_readonly("scores", &Result::scores, "Grows with disagreement; NaN where there is none.")
+      .def_readonly("probabilities", &Result::probabilities, "That the feature moves, 0 to 1; NaN if unknown.")
+      .def_readonly("weights", &Result::weights, "What the feature may say in an estimate, 0 to 1.")
+      .def_readonly("clusters", &Result::clusters, "Index of its cluster, -1 for none.")
+      .def_readonly("depths_m", &Result::depths_m, "Its depth in metres, 0 for none.")
       .def_property_readonly("status", [](const Result& result) { return member("Status", result.frame.status()); })
-      .def_property_readonly("warnings", &warnings_of, "A tuple of FrameWarning.")
+      .def_property_readonly("warnings", &warnings_of, "What is worth knowing beside the status.")
       .def_property_readonly(
           "hint", [](const Result& result) { return std::string(result.frame.hint()); },
           "What is probably wrong with the way the filter is used, one sentence; empty where nothing is.")
@@ -182,10 +184,10 @@ void bind_result(py::module_& module) {
       .def_property_readonly(
           "keep_floor_kept", [](const Result& result) { return result.frame.keep_floor_kept(); },
           "How many dynamic features the keep-floor kept.")
-      .def("mask", &mask_of, "uint8 of the image's size: 255 keeps, 0 within radius_px of a dropped feature.",
+      .def("mask", &mask_of, "Of the image's size: 255 keeps, 0 within radius_px of a dropped feature.",
            py::arg("radius_px") = 12)
       .def("__len__", [](const Result& result) { return result.frame.size(); })
-      .def("__repr__", &representation);
+      .def("__repr__", &result_text);
 }
 
 }  // namespace
@@ -217,7 +219,7 @@ void bind_filter(py::module_& module) {
            py::arg("image"), py::arg("depth"), py::arg("timestamp_s"), py::arg("keypoints"),
            py::arg("depth_factor") = py::none())
       .def("predicted_keep_mask", &predicted_keep_mask,
-           "Where the coming frame should be looked at: uint8 of the camera's size, 255 keeps, 0 drops.",
+           "Where the coming frame should be looked at: of the camera's size, 255 keeps, 0 drops.",
            py::arg("timestamp_s"), py::arg("margin_px") = 8)
       .def("feedback", &feedback, "The tracker's own pose of the frame that was filtered last, 4 x 4.",
            py::arg("world_from_camera"))
@@ -239,13 +241,13 @@ void bind_filter(py::module_& module) {
       .def_property_readonly("options", &options_of, "The options of all stages, as attributes.")
       .def(
           "read_options",
-          [](Filter& self, const std::string& file) {
+          [](Filter& self, const std::filesystem::path& file) {
             self.without_gil([&](stillpoint::FrameFilter<>& filter) { stillpoint::read_options(file, filter); });
           },
           "Sets the options that a YAML file names; the others stay.", py::arg("file"))
       .def(
           "write_options",
-          [](Filter& self, const std::string& file) {
+          [](Filter& self, const std::filesystem::path& file) {
             self.without_gil([&](stillpoint::FrameFilter<>& filter) { stillpoint::write_options(file, filter); });
           },
           "Writes all options as YAML.", py::arg("file"));

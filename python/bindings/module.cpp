@@ -4,8 +4,10 @@
 // The module stillpoint._core: errors, enums and the camera. The package stillpoint hands all of it on.
 
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,7 +70,7 @@ stillpoint::AnyDistortion lens(const std::string& model, const std::vector<doubl
   throw stillpoint::Error("camera: model is '" + model + "', expected pinhole, brown_conrady or equidistant");
 }
 
-std::string representation(const Camera& camera) {
+std::string camera_text(const Camera& camera) {
   const std::array<const char*, 3> models{"pinhole", "brown_conrady", "equidistant"};
   const auto number = [](double value) { return stillpoint::option_text(value); };
   return "Camera(fx=" + number(camera.fx()) + ", fy=" + number(camera.fy()) + ", cx=" + number(camera.cx()) +
@@ -82,9 +84,7 @@ void bind_camera(py::module_& module) {
                        const std::vector<double>& distortion) {
              return Camera(fx, fy, cx, cy, width, height, lens(model, distortion));
            }),
-           "fx, fy, cx, cy in pixels, the size of the image, and the lens: model is pinhole (no coefficients), "
-           "brown_conrady\n"
-           "(k1 k2 p1 p2 and optionally k3, OpenCV's order) or equidistant (k1 k2 k3 k4, cv2.fisheye).",
+           "model is pinhole, brown_conrady (k1 k2 p1 p2 and optionally k3) or equidistant (k1 k2 k3 k4).",
            py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"), py::arg("width"), py::arg("height"),
            py::arg("model") = "pinhole", py::arg("distortion") = std::vector<double>())
       .def_property_readonly("fx", &Camera::fx)
@@ -93,11 +93,11 @@ void bind_camera(py::module_& module) {
       .def_property_readonly("cy", &Camera::cy)
       .def_property_readonly("width", &Camera::width)
       .def_property_readonly("height", &Camera::height)
-      .def("__repr__", &representation);
+      .def("__repr__", &camera_text);
 
   module.def(
       "read_camera",
-      [](const std::string& file) {
+      [](const std::filesystem::path& file) {
         const stillpoint::RgbdCamera read = stillpoint::read_camera(file);
         return py::make_tuple(read.camera, read.depth_factor);
       },
