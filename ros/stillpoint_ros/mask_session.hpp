@@ -8,11 +8,14 @@
 #include <opencv2/imgproc.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/stillpoint.hpp"
 #include "stillpoint/verdict/masked_depth.hpp"
 #include "stillpoint_ros/camera_info.hpp"
@@ -40,6 +43,7 @@ struct FrameAnswer {
   stillpoint::Status status = stillpoint::Status::first_frame;
   const char* hint = "";  ///< what is probably wrong with the input; empty where nothing is
   std::size_t features = 0, kept = 0;
+  std::size_t objects = 0;  ///< of a detector, that are known in this frame
   double filter_ms = 0.0;
   stillpoint::ImageView mask;          ///< gray8 of the image's size: 255 keeps, 0 drops
   stillpoint::ImageView mask_inverse;  ///< 0 keeps, 255 drops
@@ -69,6 +73,7 @@ class MaskSession {
     answer_.hint = result.hint();
     answer_.features = result.size();
     answer_.kept = result.kept_count();
+    answer_.objects = filter.prior.objects().size();
     answer_.filter_ms = result.timings().total_ms();
     paint(view);
     return answer_;

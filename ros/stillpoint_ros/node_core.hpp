@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,6 +105,7 @@ class NodeCore {
                      {"frames judged", std::to_string(judged_)},
                      {"last status", frames_ == 0 ? "n/a" : status},
                      {"features kept [%]", share(kept_, features_)},
+                     {"detected objects", std::to_string(objects_)},
                      {"latency, longest [ms]", stillpoint::format_fixed(1000 * longest_latency_s_, 1)},
                      {"filter, last [ms]", stillpoint::format_fixed(last_filter_ms_, 1)},
                      {"frames left out, all", std::to_string(worker_ ? worker_->left_out() : 0)},
@@ -164,6 +166,7 @@ class NodeCore {
     judged_ += stillpoint::judged(answer.status) ? 1 : 0;
     features_ += answer.features;
     kept_ += answer.kept;
+    objects_ = answer.objects;
     last_status_ = answer.status;
     last_filter_ms_ = answer.filter_ms;
     longest_latency_s_ = std::max(longest_latency_s_, latency_s);
@@ -175,6 +178,7 @@ class NodeCore {
   InputWatch watch_;
   std::vector<StampedDetections> detections_;
   std::size_t frames_ = 0, judged_ = 0, features_ = 0, kept_ = 0;  // since the last report
+  std::size_t objects_ = 0;
   double longest_latency_s_ = 0.0, last_filter_ms_ = 0.0;
   stillpoint::Status last_status_ = stillpoint::Status::first_frame;
   std::string hint_;
