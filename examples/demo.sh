@@ -9,7 +9,7 @@ set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/demo
 
-bash "$root/tests/install_packages.sh" g++ cmake ninja-build libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev \
+bash "$root/tests/install_packages.sh" g++ cmake ninja-build libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev libceres-dev \
   nlohmann-json3-dev < /dev/null
 
 echo "Building stillpoint_run: a few minutes, the first time."
