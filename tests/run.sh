@@ -13,7 +13,7 @@ preset=${1:-release}
 shift || true
 
 bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libgtest-dev libbenchmark-dev \
-  libcli11-dev nlohmann-json3-dev python3-onnx doxygen < /dev/null
+  libcli11-dev nlohmann-json3-dev python3-onnx doxygen chromium < /dev/null
 
 started=$SECONDS
 finish() {
