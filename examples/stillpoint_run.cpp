@@ -104,6 +104,11 @@ void run(const Options& options) {
 
   stillpoint::write_trajectory(options.out / "trajectory.txt", record.filtered);
   stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
+  if (record.map) {
+    stillpoint::write_trajectory(options.out / "trajectory_live.txt", record.live);
+    write_whole(options.out / "map.ply", record.map->ply);
+    if (!record.map->before_loop.empty()) write_whole(options.out / "map_before_loop.ply", record.map->before_loop);
+  }
   features.commit();
   frames.commit();
   if (video) video->commit();

@@ -14,6 +14,7 @@
 
 #include "detection_feed.hpp"
 #include "frame_record.hpp"
+#include "map_files.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
@@ -30,7 +31,9 @@ struct RunRecord {
   bool was_interrupted = false;
   std::size_t missing_files = 0;                ///< that the sequence's lists name
   std::vector<std::string> assumptions;         ///< of the source, where nobody told it
-  stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame
+  stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame; as a map has them in the end
+  stillpoint::Trajectory live;                  ///< the filtered one, as it was known at the time
+  std::optional<MapFiles> map;                  ///< of a tracker that has one: it adjusts poses later
   std::optional<stillpoint::Trajectory> ground_truth;
   std::optional<DetectorRecord> detector;  ///< empty where no network ran
   stillpoint::FilterScore labels;

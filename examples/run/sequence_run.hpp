@@ -68,6 +68,18 @@ inline void append_pose(const std::optional<stillpoint::Pose>& pose, double time
   if (pose) trajectory.push_back({timestamp_s, *pose});
 }
 
+inline std::vector<stillpoint::Detection> detections(const FrameRecord& record) {
+  std::vector<stillpoint::Detection> result;
+  for (const RegionRow& row : record.regions) result.push_back(row.region.detection);
+  return result;
+}
+
+/// The poses as a map has them in the end take the place of those that were known at the time.
+inline stillpoint::Trajectory adjusted(AnyTracker& tracker, const stillpoint::Trajectory& live) {
+  const std::optional<stillpoint::Trajectory> by_map = tracker.trajectory();
+  return by_map ? *by_map : live;
+}
+
 /// Poses as the files have them: the camera of the run's first frame is the world, if that frame has a pose.
 inline void begin_at_identity(stillpoint::Trajectory& trajectory) {
   if (trajectory.empty()) return;
@@ -141,6 +153,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
         frame.timestamp_s - (run.frames.empty() ? frame.timestamp_s : run.frames.front().timestamp_s);
     const auto pose = filtered.track(view, [&](const std::vector<cv::KeyPoint>& keypoints, const auto& result) {
       write_down(view, filtered.filter, keypoints, result, class_name, record);
+      filtered.backend.expect_detections(detail::detections(record));
     });
     record.summary.extract_ms = filtered.backend.extract_ms;
     record.summary.track_ms = filtered.backend.track_ms;
@@ -167,8 +180,12 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than the number of " +
                             "frames of " + run.sequence);
   run.detector = detector.finish();
-  detail::begin_at_identity(run.filtered);
-  detail::begin_at_identity(run.unfiltered);
+  run.map = filtered.backend.map_files();
+  run.live = run.filtered;
+  run.filtered = detail::adjusted(filtered.backend, run.filtered);
+  run.unfiltered = detail::adjusted(unfiltered.backend, run.unfiltered);
+  for (stillpoint::Trajectory* trajectory : {&run.filtered, &run.unfiltered, &run.live})
+    detail::begin_at_identity(*trajectory);
   return run;
 }
 
