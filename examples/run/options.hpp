@@ -30,8 +30,9 @@ namespace stillpoint_run {
 /// What a run was asked for, as it was given; `parse_options` has checked each value.
 struct Options : InputOptions {
   std::filesystem::path out = "stillpoint_out";
-  std::filesystem::path stages;  ///< options of the filter's stages; empty: as they come
-  bool calibrate = false;        ///< measures noise and writes options, in place of a run
+  std::filesystem::path save_video;  ///< empty: none
+  std::filesystem::path stages;      ///< options of the filter's stages; empty: as they come
+  bool calibrate = false;            ///< measures noise and writes options, in place of a run
   std::string depth_noise = "kinect";
   std::string policies = "default";
   std::string ego_motion = "default";
@@ -122,6 +123,17 @@ inline CLI::Validator layout() {
       "");
 }
 
+/// The ending says which codec.
+inline CLI::Validator video_name() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::string ending = std::filesystem::path(text).extension().string();
+        if (ending == ".mp4" || ending == ".avi") return std::string();
+        return "found '" + text + "', expected a name that ends in .mp4 or .avi";
+      },
+      "");
+}
+
 /// What no single option can know.
 inline void require_consistent(const CLI::App& app, const Options& options) {
   const auto given = [&app](const char* name) { return app.count(name) > 0; };
@@ -166,7 +178,8 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
         throw stillpoint::Error(std::string(name) + ": found with --backend " + options.backend +
                                 ", expected --backend slam, whose part it is");
   if (options.calibrate)
-    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend"})
+    for (const char* name :
+         {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend", "--save-video"})
       if (given(name))
         throw stillpoint::Error(std::string(name) +
                                 ": found with --calibrate, which measures with the default policies and no tracker");
@@ -199,6 +212,10 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   };
   detail::add_input_options(app, options);
   add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
+  add_path("--save-video", "OUT.mp4", options.save_video,
+           "the frames with what was decided of them and the trajectories beside, as a video: .mp4 or .avi")
+      ->check(detail::video_name())
+      ->default_str("");
   add_path(
       "--options", "FILE", options.stages,
       "options of the filter's stages, as an earlier run or --calibrate left them in options.yaml; what is said here "
