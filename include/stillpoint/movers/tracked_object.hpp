@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// One object as it is remembered from frame to frame, and when it counts as moving, parked or lost.
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/image.hpp"
+#include "stillpoint/core/mover.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/movers/constant_velocity.hpp"
+
+namespace stillpoint {
+
+/// What an object looks like: a histogram of its gray levels.
+class Appearance {
+ public:
+  static constexpr std::size_t kBins = 16;
+
+  void add(const ImageView& gray, const Vector2f& pixel) {
+    constexpr int kStep_px = 3;
+    const int u = rounded(pixel.x()), v = rounded(pixel.y());
+    for (int dv = -kStep_px; dv <= kStep_px; dv += kStep_px)
+      for (int du = -kStep_px; du <= kStep_px; du += kStep_px)
+        if (gray.contains(u + du, v + dv))
+          bins_[gray.row<std::uint8_t>(v + dv)[u + du] * kBins / 256] += 1.0f, sum_ += 1.0f;
+  }
+
+  /// Hellinger's distance, 0 (alike) to 1; ½ where nothing is known.
+  float distance(const Appearance& other) const noexcept {
+    if (!(sum_ > 0) || !(other.sum_ > 0)) return 0.5f;
+    float overlap = 0;
+    for (std::size_t b = 0; b < kBins; ++b) overlap += std::sqrt(bins_[b] / sum_ * (other.bins_[b] / other.sum_));
+    return std::sqrt(std::max(0.0f, 1.0f - overlap));
+  }
+
+  /// Learns what it looks like now.
+  void blend(const Appearance& now, float share) noexcept {
+    if (!(now.sum_ > 0)) return;
+    if (!(sum_ > 0)) share = 1.0f;
+    for (std::size_t b = 0; b < kBins; ++b) {
+      const float old = sum_ > 0 ? bins_[b] / sum_ : 0.0f;
+      bins_[b] = old + share * (now.bins_[b] / now.sum_ - old);
+    }
+    sum_ = 1.0f;
+  }
+
+ private:
+  std::array<float, kBins> bins_{};
+  float sum_ = 0;
+};
+
+/// An object that is followed. Vectors are in the axes of the last frame's camera.
+struct TrackedObject {
+  static constexpr std::size_t kMostPoints = 192;
+
+  Mover mover;
+  std::vector<Vector3d> points;  ///< on its surface, at most `kMostPoints`
+  ConstantVelocity linear{1.0}, angular{1.0};
+  Appearance appearance;
+  Vector3d path = Vector3d::Zero();             ///< the way gone since it was seen first, metres
+  Matrix3d path_covariance = Matrix3d::Zero();  ///< of it
+  int seen_frames = 0;
+  double slow_s = 0;         ///< for how long it has hardly moved
+  double rigid_share = 0.5;  ///< mean over time of the share of its points that move as one rigid body
+  bool is_confirmed = false;
+  bool is_seen = true;  ///< in the last frame
+
+  TrackedObject() { points.reserve(kMostPoints); }
+
+  Vector3d centroid_of_points() const {
+    Vector3d sum = Vector3d::Zero();
+    for (const Vector3d& point : points) sum += point;
+    return points.empty() ? mover.centroid : Vector3d(sum / static_cast<double>(points.size()));
+  }
+
+  double speed() const { return linear.velocity().norm(); }
+};
+
+}  // namespace stillpoint
