@@ -28,6 +28,9 @@ class ConstantVelocity {
     covariance_ += change * change * Matrix3d::Identity();
   }
 
+  /// Nothing is measured: what moved comes to rest some time.
+  void fade(double factor) { velocity_ *= factor; }
+
   /// @param noise  covariance of the measured velocity; one that is not positive definite is no measurement
   void correct(const Vector3d& measured, const Matrix3d& noise) {
     const Cholesky<3> innovation(covariance_ + noise);

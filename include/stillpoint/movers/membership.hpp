@@ -59,7 +59,7 @@ class PredictedPoints {
 
  private:
   static constexpr DepthTolerance kSameSurface{0.06};
-  static constexpr double kLimbs_m_s = 1.0;
+  static constexpr double kLimbs_m_s = 0.5;
 
   struct Entry {
     float depth_m = 0;

@@ -57,9 +57,9 @@ class MoverTracking {
     DynamicPoints members(matches.size(), workspace), loose(matches.size(), workspace);
     const span<std::int32_t> object_of = workspace.take<std::int32_t>(matches.size(), kNone);
     assign(matches, labels, motion.current_from_reference, camera, members, loose, object_of, workspace);
-    for (TrackedObject& object : objects_) object.is_seen = false;
     const MotionGroups groups(loose, elapsed_s, workspace);
     place_groups(groups, loose, elapsed_s, frame, object_of, matches, workspace);
+    merge(object_of);
     for (std::size_t o = 0; o < objects_.size(); ++o)
       update(o, object_of, labels, matches, motion.current_from_reference, camera, frame, elapsed_s, workspace);
     forget(object_of, frame.timestamp_s);
@@ -73,6 +73,9 @@ class MoverTracking {
   static constexpr std::int32_t kNone = -1;
   static constexpr double kAcceleration_m_s2 = 4.0, kAngular_rad_s2 = 4.0;
   static constexpr double kSlow_m_s = 0.15;       // below it, what does not look dynamic may belong to an object as well
+  static constexpr double kAlike_m_s = 0.4;       // parts of one object differ less in their mean velocity
+  static constexpr double kMean_s = 0.3;          // over which velocities are averaged for that
+  static constexpr double kFade_s = 1.0;          // in which the velocity of what is not seen fades
   static constexpr double kStands_m_s = 0.06;     // slower is standing, …
   static constexpr double kParkedAfter_s = 0.25;  // … after so long
   static constexpr double kTentative_s = 0.2;     // an object that was never reported is forgotten after so long
@@ -85,6 +88,7 @@ class MoverTracking {
       object.linear.predict(turn, elapsed_s, kAcceleration_m_s2);
       object.angular.predict(turn, elapsed_s, kAngular_rad_s2);
       object.mover.centroid = current_from_reference * object.mover.centroid;
+      object.mean_velocity = turn * object.mean_velocity;
       object.path = turn * object.path;
       object.path_covariance = turn * object.path_covariance * turn.transpose();
       for (Vector3d& point : object.points) point = current_from_reference * point;
@@ -134,7 +138,7 @@ class MoverTracking {
                               has_step ? &velocity : nullptr, objects_);
       if (object != kNone) {
         const TrackedObject& known = objects_[static_cast<std::size_t>(object)];
-        if (is_dynamic || known.speed() < kSlow_m_s) object_of[i] = object;
+        if (is_dynamic || known.mean_speed() < kSlow_m_s) object_of[i] = object;
       } else if (is_dynamic) {
         loose.feature[loose.size] = static_cast<std::uint32_t>(i);
         loose.has_step[loose.size] = has_step;
@@ -238,6 +242,29 @@ class MoverTracking {
     return static_cast<std::int32_t>(objects_.size() - 1);
   }
 
+  /// What hangs together and moves alike is one object, the one that was known first.
+  void merge(span<std::int32_t> object_of) {
+    for (std::size_t b = objects_.size(); b-- > 1;) {
+      for (std::size_t a = 0; a < b; ++a) {
+        TrackedObject &one = objects_[a], &other = objects_[b];
+        if (!one.is_seen || !other.is_seen || one.points.empty() || other.points.empty()) continue;
+        const bool both_move = std::min(one.mean_speed(), other.mean_speed()) > kSlow_m_s;
+        if (!both_move || !((one.mean_velocity - other.mean_velocity).norm() < kAlike_m_s)) continue;
+        if (!TrackedObject::touch(one, other, MotionGroups::kReach_m)) continue;
+        const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.mover.id < one.mover.id);
+        if (keeps_other) std::swap(one, other);
+        for (const Vector3d& point : other.points)
+          if (one.points.size() < TrackedObject::kMostPoints) one.points.push_back(point);
+        for (std::int32_t& of : object_of) {
+          if (of == static_cast<std::int32_t>(b) || of == static_cast<std::int32_t>(a)) of = static_cast<std::int32_t>(a);
+          if (of > static_cast<std::int32_t>(b)) --of;
+        }
+        objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(b));
+        break;
+      }
+    }
+  }
+
   /// Measures an object's motion and takes over where its points are now.
   template <class Camera>
   void update(std::size_t o, span<const std::int32_t> object_of, span<const Label> labels, const Matches& matches,
@@ -259,6 +286,7 @@ class MoverTracking {
     object.is_seen = members >= options.fewest_features;
     if (!object.is_seen) {
       object.mover.state = MoverState::lost;
+      object.linear.fade(std::exp(-elapsed_s / kFade_s));
       return;
     }
     ++object.seen_frames;
@@ -266,7 +294,7 @@ class MoverTracking {
     object.appearance.blend(appearance, 0.1f);
     measure(object, pairs.first(steps), current_from_reference, elapsed_s, workspace);
     refresh_points(object, o, object_of, labels, matches, dynamic);
-    settle(object, elapsed_s);
+    settle(object, members, elapsed_s);
   }
 
   void measure(TrackedObject& object, span<const WhitenedPair> pairs, const Pose& current_from_reference,
@@ -289,6 +317,8 @@ class MoverTracking {
     if (turned)
       object.angular.correct(vector_from_rotation(turned->moved.linear()) / elapsed_s,
                              kCorrelation * turned->covariance.topLeftCorner<3, 3>() / (elapsed_s * elapsed_s));
+    const double half_second = 1.0 - std::exp(-elapsed_s / kMean_s);
+    object.mean_velocity += (object.seen_frames <= 1 ? 1.0 : half_second) * (step / elapsed_s - object.mean_velocity);
     object.path += step;
     object.path_covariance += step_covariance;
   }
@@ -307,8 +337,8 @@ class MoverTracking {
     object.mover.centroid = object.centroid_of_points();
   }
 
-  void settle(TrackedObject& object, double elapsed_s) {
-    const double speed = object.speed();
+  void settle(TrackedObject& object, std::size_t members, double elapsed_s) {
+    const double speed = object.mean_speed();
     object.slow_s = speed < kStands_m_s ? object.slow_s + elapsed_s : 0.0;
     if (object.slow_s >= kParkedAfter_s)
       object.mover.state = MoverState::parked;
@@ -316,7 +346,8 @@ class MoverTracking {
       object.mover.state = MoverState::moving;
     if (object.is_confirmed) return;
     const double path_m = object.path.norm();
-    if (!(path_m > options.least_path_m)) return;
+    const double least_m = options.least_path_m * std::clamp(std::sqrt(20.0 / static_cast<double>(members)), 0.4, 1.0);
+    if (!(path_m > (speed > kSlow_m_s ? least_m : 3 * least_m)) || members < 12) return;
     const Cholesky<3> factors(object.path_covariance);
     const double sigmas_sq = object.path.dot(factors.solve(object.path));
     object.is_confirmed = sigmas_sq > options.least_path_sigmas * options.least_path_sigmas && object.seen_frames >= 3;

@@ -61,12 +61,13 @@ class Appearance {
 
 /// An object that is followed. Vectors are in the axes of the last frame's camera.
 struct TrackedObject {
-  static constexpr std::size_t kMostPoints = 192;
+  static constexpr std::size_t kMostPoints = 320;
 
   Mover mover;
   std::vector<Vector3d> points;  ///< on its surface, at most `kMostPoints`
   ConstantVelocity linear{1.0}, angular{1.0};
   Appearance appearance;
+  Vector3d mean_velocity = Vector3d::Zero();    ///< of the last half second: limbs swing about it, m/s
   Vector3d path = Vector3d::Zero();             ///< the way gone since it was seen first, metres
   Matrix3d path_covariance = Matrix3d::Zero();  ///< of it
   int seen_frames = 0;
@@ -83,7 +84,22 @@ struct TrackedObject {
     return points.empty() ? mover.centroid : Vector3d(sum / static_cast<double>(points.size()));
   }
 
-  double speed() const { return linear.velocity().norm(); }
+  double mean_speed() const { return mean_velocity.norm(); }
+
+  /// The two hang together: some points of the one are near points of the other. A sample of the points is compared.
+  static bool touch(const TrackedObject& a, const TrackedObject& b, double reach_m) {
+    constexpr std::size_t kSample = 64, kFewest = 3;
+    constexpr double kShare = 0.1;
+    const std::size_t every_a = a.points.size() / kSample + 1, every_b = b.points.size() / kSample + 1;
+    std::size_t near = 0, compared = 0;
+    for (std::size_t i = 0; i < b.points.size(); i += every_b, ++compared)
+      for (std::size_t j = 0; j < a.points.size(); j += every_a)
+        if ((a.points[j] - b.points[i]).squaredNorm() <= reach_m * reach_m) {
+          ++near;
+          break;
+        }
+    return near >= kFewest && static_cast<double>(near) >= kShare * static_cast<double>(compared);
+  }
 };
 
 }  // namespace stillpoint
