@@ -41,7 +41,7 @@ struct DynamicPoints {
 class MotionGroups {
  public:
   static constexpr std::int32_t kNone = -1;
-  static constexpr double kReach_m = 0.25;      // between neighbouring features of one object
+  static constexpr double kReach_m = 0.18;      // between neighbouring features of one object
   static constexpr double kSlack_m_s = 0.25;    // limbs and turns differ so much from their object's translation
 
   span<std::int32_t> of_point;  ///< group of each point, 0 to `count` - 1, or `kNone`

@@ -72,6 +72,7 @@ class MoverTracking {
   static constexpr std::size_t kMostObjects = 32;
   static constexpr std::int32_t kNone = -1;
   static constexpr double kAcceleration_m_s2 = 4.0, kAngular_rad_s2 = 4.0;
+  static constexpr float kBeside_px = 24.0f;      // a cell of support corners, for a focal length of 525 px
   static constexpr double kSlow_m_s = 0.15;       // below it, what does not look dynamic may belong to an object as well
   static constexpr double kAlike_m_s = 0.4;       // parts of one object differ less in their mean velocity
   static constexpr double kMean_s = 0.3;          // over which velocities are averaged for that
@@ -121,21 +122,42 @@ class MoverTracking {
     return true;
   }
 
+  /// The nearest feature on the same surface that was found in the reference frame; their number where there is none.
+  static std::size_t followed_beside(std::size_t i, const Matches& matches, const PixelGrid& followed) {
+    constexpr double kSameSurface_m = 0.05;
+    std::size_t nearest = matches.size();
+    float least = std::numeric_limits<float>::infinity();
+    followed.within(matches.current.pixel[i], kBeside_px * matches.pixel_scale, [&](std::size_t j, float squared) {
+      if (!(squared < least) || !(std::abs(matches.current.depth_m[j] - matches.current.depth_m[i]) < kSameSurface_m))
+        return;
+      least = squared;
+      nearest = j;
+    });
+    return nearest;
+  }
+
   template <class Camera>
   void assign(const Matches& matches, span<const Label> labels, const Pose& current_from_reference,
               const Camera& camera, DynamicPoints&, DynamicPoints& loose, span<std::int32_t> object_of,
               Workspace& workspace) {
     const PredictedPoints predicted(objects_, camera, matches.pixel_scale, workspace);
+    const PixelGrid followed(matches.current.pixel, kBeside_px * matches.pixel_scale, workspace,
+                             [&](std::size_t i) { return !objects_.empty() && matches.metric(i); });
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.current.has_depth(i)) continue;
       const bool is_dynamic = labels[i].verdict == Verdict::dynamic;
       if (!is_dynamic && objects_.empty()) continue;
       WhitenedPair pair;
       const bool has_step = pair_of(matches, i, current_from_reference, camera, pair);
-      const Vector3d velocity = (pair.current - pair.reference) / matches.elapsed_s;
+      const std::size_t beside = has_step ? i : followed_beside(i, matches, followed);
+      const Vector3d velocity = beside == matches.size()
+                                    ? Vector3d::Zero()
+                                    : Vector3d((matches.current.point[beside] -
+                                                current_from_reference * matches.reference.point[beside]) /
+                                               matches.elapsed_s);
       const std::int32_t object =
           predicted.object_at(matches.current.pixel[i], matches.current.depth_m[i], matches.current.depth_sigma_m[i],
-                              has_step ? &velocity : nullptr, objects_);
+                              beside < matches.size() ? &velocity : nullptr, objects_);
       if (object != kNone) {
         const TrackedObject& known = objects_[static_cast<std::size_t>(object)];
         if (is_dynamic || known.mean_speed() < kSlow_m_s) object_of[i] = object;
@@ -188,13 +210,13 @@ class MoverTracking {
 
   std::int32_t touched(const DynamicPoints& loose, span<const std::uint32_t> members, const Vector3d& velocity,
                        span<const std::size_t> seen, std::size_t known) const {
-    constexpr double kLimbs_m_s = 0.8;
+    constexpr double kLimbs_m_s = 0.6;
     std::int32_t best = kNone;
     std::size_t most = 0;
     for (std::size_t o = 0; o < known; ++o) {
       if (seen[o] < options.fewest_features) continue;
       const TrackedObject& object = objects_[o];
-      if (!((object.linear.velocity() - velocity).norm() < kLimbs_m_s)) continue;
+      if (!((object.mean_velocity - velocity).norm() < kLimbs_m_s)) continue;
       std::size_t near = 0;
       for (const std::uint32_t k : members) {
         const auto is_near = [&](const Vector3d& point) {
@@ -213,7 +235,7 @@ class MoverTracking {
   /// The lost object that is nearest in place, motion and appearance.
   std::int32_t seen_again(const Vector3d& centroid, const Vector3d& velocity, const Appearance& appearance,
                           double timestamp_s, span<const std::size_t> seen, std::size_t known) const {
-    constexpr double kNear_m = 0.4, kNearPerSecond = 0.8, kAlike_m_s = 1.2, kAlike = 0.5, kMostCost = 1.6;
+    constexpr double kNear_m = 0.4, kNearPerSecond = 0.8, kSameMotion_m_s = 1.2, kAlike = 0.5, kMostCost = 1.6;
     std::int32_t best = kNone;
     double least = kMostCost;
     for (std::size_t o = 0; o < known; ++o) {
@@ -222,7 +244,7 @@ class MoverTracking {
       const double unseen_s = timestamp_s - object.mover.last_seen_s;
       const double place = (centroid - object.mover.centroid).norm() / (kNear_m + kNearPerSecond * unseen_s);
       if (!(place < 1.0)) continue;
-      const double motion = (velocity - object.linear.velocity()).norm() / kAlike_m_s;
+      const double motion = (velocity - object.linear.velocity()).norm() / kSameMotion_m_s;
       const double look = static_cast<double>(appearance.distance(object.appearance)) / kAlike;
       const double cost = place * place + motion * motion * 0.5 + look * look * 0.5;
       if (cost < least) {
@@ -248,8 +270,10 @@ class MoverTracking {
       for (std::size_t a = 0; a < b; ++a) {
         TrackedObject &one = objects_[a], &other = objects_[b];
         if (!one.is_seen || !other.is_seen || one.points.empty() || other.points.empty()) continue;
-        const bool both_move = std::min(one.mean_speed(), other.mean_speed()) > kSlow_m_s;
-        if (!both_move || !((one.mean_velocity - other.mean_velocity).norm() < kAlike_m_s)) continue;
+        const bool are_known = one.is_confirmed && other.is_confirmed;  // then they must clearly be one
+        const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? 0.5 * kAlike_m_s : kAlike_m_s;
+        if (!(std::min(one.mean_speed(), other.mean_speed()) > slowest)) continue;
+        if (!((one.mean_velocity - other.mean_velocity).norm() < alike)) continue;
         if (!TrackedObject::touch(one, other, MotionGroups::kReach_m)) continue;
         const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.mover.id < one.mover.id);
         if (keeps_other) std::swap(one, other);
