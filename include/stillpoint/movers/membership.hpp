@@ -23,7 +23,7 @@ namespace stillpoint {
 class PredictedPoints {
  public:
   static constexpr std::int32_t kNone = -1;
-  static constexpr float kReach_px = 20.0f;  // for a focal length of 525 px: a support corner's cell
+  static constexpr float kReach_px = 16.0f;  // for a focal length of 525 px: a support corner's cell
 
   template <class Camera>
   PredictedPoints(const std::vector<TrackedObject>& objects, const Camera& camera, float pixel_scale,
@@ -48,7 +48,9 @@ class PredictedPoints {
       double cost = static_cast<double>(squared_px / (reach_px_ * reach_px_)) + apart * apart;
       if (velocity != nullptr) {
         const Vector3d& known = objects[static_cast<std::size_t>(entry.object)].linear.velocity();
-        cost += (*velocity - known).squaredNorm() / (kLimbs_m_s * kLimbs_m_s);
+        const double limbs_m_s = kLimbs_m_s + kLimbs * known.norm(), apart_m_s = (*velocity - known).norm();
+        if (!(apart_m_s < limbs_m_s)) return;
+        cost += 4 * apart_m_s * apart_m_s / (limbs_m_s * limbs_m_s);
       }
       if (!(cost < least)) return;
       least = cost;
@@ -59,7 +61,7 @@ class PredictedPoints {
 
  private:
   static constexpr DepthTolerance kSameSurface{0.06};
-  static constexpr double kLimbs_m_s = 0.5;
+  static constexpr double kLimbs_m_s = 0.4, kLimbs = 0.8;  // limbs differ so much from their object's velocity
 
   struct Entry {
     float depth_m = 0;

@@ -74,8 +74,9 @@ class MoverTracking {
   static constexpr double kAcceleration_m_s2 = 4.0, kAngular_rad_s2 = 4.0;
   static constexpr float kBeside_px = 24.0f;      // a cell of support corners, for a focal length of 525 px
   static constexpr double kSlow_m_s = 0.15;       // below it, what does not look dynamic may belong to an object as well
-  static constexpr double kAlike_m_s = 0.4;       // parts of one object differ less in their mean velocity
+  static constexpr double kAlike_m_s = 0.6;       // parts of one object differ less in their mean velocity
   static constexpr double kMean_s = 0.3;          // over which velocities are averaged for that
+  static constexpr double kLong_s = 0.8;          // the same for objects that are known to be two
   static constexpr double kFade_s = 1.0;          // in which the velocity of what is not seen fades
   static constexpr double kStands_m_s = 0.06;     // slower is standing, …
   static constexpr double kParkedAfter_s = 0.25;  // … after so long
@@ -90,6 +91,7 @@ class MoverTracking {
       object.angular.predict(turn, elapsed_s, kAngular_rad_s2);
       object.mover.centroid = current_from_reference * object.mover.centroid;
       object.mean_velocity = turn * object.mean_velocity;
+      object.long_velocity = turn * object.long_velocity;
       object.path = turn * object.path;
       object.path_covariance = turn * object.path_covariance * turn.transpose();
       for (Vector3d& point : object.points) point = current_from_reference * point;
@@ -271,9 +273,10 @@ class MoverTracking {
         TrackedObject &one = objects_[a], &other = objects_[b];
         if (!one.is_seen || !other.is_seen || one.points.empty() || other.points.empty()) continue;
         const bool are_known = one.is_confirmed && other.is_confirmed;  // then they must clearly be one
-        const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? 0.5 * kAlike_m_s : kAlike_m_s;
-        if (!(std::min(one.mean_speed(), other.mean_speed()) > slowest)) continue;
-        if (!((one.mean_velocity - other.mean_velocity).norm() < alike)) continue;
+        const Vector3d& u = are_known ? one.long_velocity : one.mean_velocity;
+        const Vector3d& v = are_known ? other.long_velocity : other.mean_velocity;
+        const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? 0.4 * kAlike_m_s : kAlike_m_s;
+        if (!(std::min(u.norm(), v.norm()) > slowest) || !((u - v).norm() < alike)) continue;
         if (!TrackedObject::touch(one, other, MotionGroups::kReach_m)) continue;
         const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.mover.id < one.mover.id);
         if (keeps_other) std::swap(one, other);
@@ -342,6 +345,8 @@ class MoverTracking {
       object.angular.correct(vector_from_rotation(turned->moved.linear()) / elapsed_s,
                              kCorrelation * turned->covariance.topLeftCorner<3, 3>() / (elapsed_s * elapsed_s));
     const double half_second = 1.0 - std::exp(-elapsed_s / kMean_s);
+    const double second = 1.0 - std::exp(-elapsed_s / kLong_s);
+    object.long_velocity += (object.seen_frames <= 1 ? 1.0 : second) * (step / elapsed_s - object.long_velocity);
     object.mean_velocity += (object.seen_frames <= 1 ? 1.0 : half_second) * (step / elapsed_s - object.mean_velocity);
     object.path += step;
     object.path_covariance += step_covariance;

@@ -68,6 +68,7 @@ struct TrackedObject {
   ConstantVelocity linear{1.0}, angular{1.0};
   Appearance appearance;
   Vector3d mean_velocity = Vector3d::Zero();    ///< of the last half second: limbs swing about it, m/s
+  Vector3d long_velocity = Vector3d::Zero();    ///< of the last second
   Vector3d path = Vector3d::Zero();             ///< the way gone since it was seen first, metres
   Matrix3d path_covariance = Matrix3d::Zero();  ///< of it
   int seen_frames = 0;
