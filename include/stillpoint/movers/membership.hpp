@@ -4,6 +4,7 @@
 
 // Which feature belongs to which known object?   That beside whose predicted points it lies.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -34,23 +35,29 @@ class PredictedPoints {
         point_(workspace.take<Entry>(count_)),
         grid_(fill(objects, camera), reach_px_, workspace, [](std::size_t) { return true; }) {}
 
+  /// How fast a feature went.
+  struct Velocity {
+    bool is_known = false;
+    Vector3d value = Vector3d::Zero();  ///< relative to the world, m/s
+    double depth_sigma_m_s = 0;         ///< of it, along the ray; across it is much better known
+  };
+
   /// The object that has the nearest point in image, depth and motion; `kNone` where none is near.
-  /// @param velocity  of the feature relative to the world, m/s; nullptr where it is not known
-  std::int32_t object_at(const Vector2f& pixel, double depth_m, double sigma_m, const Vector3d* velocity,
+  /// @param point  of the feature, in the current camera
+  std::int32_t object_at(const Vector2f& pixel, const Vector3d& point, double sigma_m, const Velocity& velocity,
                          const std::vector<TrackedObject>& objects) const {
     const double tolerance_m = kSameSurface.at(sigma_m);
     std::int32_t nearest = kNone;
     double least = 1e30;
     grid_.within(pixel, reach_px_, [&](std::size_t k, float squared_px) {
       const Entry& entry = point_[k];
-      const double apart = (static_cast<double>(entry.depth_m) - depth_m) / tolerance_m;
+      const double apart = (static_cast<double>(entry.depth_m) - point.z()) / tolerance_m;
       if (!(apart * apart <= 1.0)) return;
       double cost = static_cast<double>(squared_px / (reach_px_ * reach_px_)) + apart * apart;
-      if (velocity != nullptr) {
-        const Vector3d& known = objects[static_cast<std::size_t>(entry.object)].linear.velocity();
-        const double limbs_m_s = kLimbs_m_s + kLimbs * known.norm(), apart_m_s = (*velocity - known).norm();
-        if (!(apart_m_s < limbs_m_s)) return;
-        cost += 4 * apart_m_s * apart_m_s / (limbs_m_s * limbs_m_s);
+      if (velocity.is_known) {
+        const double misfit = misfit_of(velocity, point, objects[static_cast<std::size_t>(entry.object)]);
+        if (!(misfit < 1.0)) return;
+        cost += 4.0 * misfit * misfit;
       }
       if (!(cost < least)) return;
       least = cost;
@@ -59,9 +66,17 @@ class PredictedPoints {
     return nearest;
   }
 
+  /// 0: the feature moves as the object does; 1 and more: it is not of the object.
+  static double misfit_of(const Velocity& velocity, const Vector3d& point, const TrackedObject& object) {
+    constexpr double kSigmas = 3.0;
+    const Vector3d apart = velocity.value - object.velocity_at(point);
+    const double x = apart.x() - point.x() / point.z() * apart.z(), y = apart.y() - point.y() / point.z() * apart.z();
+    const double z = std::max(0.0, std::abs(apart.z()) - kSigmas * velocity.depth_sigma_m_s);
+    return std::sqrt(x * x + y * y + z * z) / object.limbs_m_s();
+  }
+
  private:
   static constexpr DepthTolerance kSameSurface{0.06};
-  static constexpr double kLimbs_m_s = 0.4, kLimbs = 0.8;  // limbs differ so much from their object's velocity
 
   struct Entry {
     float depth_m = 0;

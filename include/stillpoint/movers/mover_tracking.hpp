@@ -76,7 +76,7 @@ class MoverTracking {
   static constexpr double kSlow_m_s = 0.15;       // below it, what does not look dynamic may belong to an object as well
   static constexpr double kAlike_m_s = 0.6;       // parts of one object differ less in their mean velocity
   static constexpr double kMean_s = 0.3;          // over which velocities are averaged for that
-  static constexpr double kLong_s = 0.8;          // the same for objects that are known to be two
+  static constexpr double kLong_s = 0.6;          // the same for objects that are known to be two
   static constexpr double kFade_s = 1.0;          // in which the velocity of what is not seen fades
   static constexpr double kStands_m_s = 0.06;     // slower is standing, …
   static constexpr double kParkedAfter_s = 0.25;  // … after so long
@@ -152,14 +152,17 @@ class MoverTracking {
       WhitenedPair pair;
       const bool has_step = pair_of(matches, i, current_from_reference, camera, pair);
       const std::size_t beside = has_step ? i : followed_beside(i, matches, followed);
-      const Vector3d velocity = beside == matches.size()
-                                    ? Vector3d::Zero()
-                                    : Vector3d((matches.current.point[beside] -
-                                                current_from_reference * matches.reference.point[beside]) /
-                                               matches.elapsed_s);
-      const std::int32_t object =
-          predicted.object_at(matches.current.pixel[i], matches.current.depth_m[i], matches.current.depth_sigma_m[i],
-                              beside < matches.size() ? &velocity : nullptr, objects_);
+      PredictedPoints::Velocity velocity;
+      if (beside < matches.size()) {
+        velocity.is_known = true;
+        const Vector3d before = current_from_reference * matches.reference.point[beside];
+        velocity.value = (matches.current.point[beside] - before) / matches.elapsed_s;
+        velocity.depth_sigma_m_s =
+            std::hypot(matches.current.depth_sigma_m[beside], matches.reference.depth_sigma_m[beside]) /
+            matches.elapsed_s;
+      }
+      const std::int32_t object = predicted.object_at(matches.current.pixel[i], matches.current.point[i],
+                                                      matches.current.depth_sigma_m[i], velocity, objects_);
       if (object != kNone) {
         const TrackedObject& known = objects_[static_cast<std::size_t>(object)];
         if (is_dynamic || known.mean_speed() < kSlow_m_s) object_of[i] = object;
@@ -201,7 +204,7 @@ class MoverTracking {
       Appearance appearance;
       for (std::size_t m = 0; m < count; ++m)
         appearance.add(frame.gray, matches.current.pixel[loose.feature[members[m]]]);
-      std::int32_t object = touched(loose, members.first(count), velocity, seen, known);
+      std::int32_t object = touched(loose, members.first(count), centroid, velocity, seen, known);
       if (object == kNone) object = seen_again(centroid, velocity, appearance, frame.timestamp_s, seen, known);
       if (object == kNone && count >= options.fewest_features && objects_.size() < kMostObjects)
         object = begin(centroid, velocity, frame.timestamp_s);
@@ -210,15 +213,16 @@ class MoverTracking {
     }
   }
 
-  std::int32_t touched(const DynamicPoints& loose, span<const std::uint32_t> members, const Vector3d& velocity,
-                       span<const std::size_t> seen, std::size_t known) const {
+  std::int32_t touched(const DynamicPoints& loose, span<const std::uint32_t> members, const Vector3d& centroid,
+                       const Vector3d& velocity, span<const std::size_t> seen, std::size_t known) const {
     constexpr double kLimbs_m_s = 0.6;
     std::int32_t best = kNone;
     std::size_t most = 0;
     for (std::size_t o = 0; o < known; ++o) {
       if (seen[o] < options.fewest_features) continue;
       const TrackedObject& object = objects_[o];
-      if (!((object.mean_velocity - velocity).norm() < kLimbs_m_s)) continue;
+      const Vector3d there = object.mean_velocity + object.velocity_at(centroid) - object.linear.velocity();
+      if (!((there - velocity).norm() < kLimbs_m_s)) continue;
       std::size_t near = 0;
       for (const std::uint32_t k : members) {
         const auto is_near = [&](const Vector3d& point) {
@@ -273,9 +277,10 @@ class MoverTracking {
         TrackedObject &one = objects_[a], &other = objects_[b];
         if (!one.is_seen || !other.is_seen || one.points.empty() || other.points.empty()) continue;
         const bool are_known = one.is_confirmed && other.is_confirmed;  // then they must clearly be one
-        const Vector3d& u = are_known ? one.long_velocity : one.mean_velocity;
+        Vector3d u = are_known ? one.long_velocity : one.mean_velocity;
         const Vector3d& v = are_known ? other.long_velocity : other.mean_velocity;
-        const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? 0.4 * kAlike_m_s : kAlike_m_s;
+        u += one.velocity_at(other.mover.centroid) - one.linear.velocity();  // if it turns
+        const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? 0.5 * kAlike_m_s : kAlike_m_s;
         if (!(std::min(u.norm(), v.norm()) > slowest) || !((u - v).norm() < alike)) continue;
         if (!TrackedObject::touch(one, other, MotionGroups::kReach_m)) continue;
         const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.mover.id < one.mover.id);

@@ -85,6 +85,19 @@ struct TrackedObject {
     return points.empty() ? mover.centroid : Vector3d(sum / static_cast<double>(points.size()));
   }
 
+  /// Of a point of the object, relative to the world: with its turn where that is known.
+  Vector3d velocity_at(const Vector3d& point) const {
+    Vector3d velocity = linear.velocity();
+    if (mover.has_rotation) velocity += angular.velocity().cross(point - mover.centroid);
+    return velocity;
+  }
+
+  /// How much faster or slower than the object a point of it may be: limbs of what does not move rigidly.
+  double limbs_m_s() const {
+    const double speed = linear.velocity().norm();
+    return 0.15 + 0.2 * speed + (1.0 - rigid_share) * (0.3 + 0.6 * speed);
+  }
+
   double mean_speed() const { return mean_velocity.norm(); }
 
   /// The two hang together: some points of the one are near points of the other. A sample of the points is compared.
