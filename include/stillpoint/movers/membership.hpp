@@ -55,8 +55,12 @@ class PredictedPoints {
       if (!(apart * apart <= 1.0)) return;
       double cost = static_cast<double>(squared_px / (reach_px_ * reach_px_)) + apart * apart;
       if (velocity.is_known) {
-        const double misfit = misfit_of(velocity, point, objects[static_cast<std::size_t>(entry.object)]);
+        const TrackedObject& object = objects[static_cast<std::size_t>(entry.object)];
+        const Vector3d expected = object.velocity_at(point);
+        const double apart_m_s = difference(velocity, expected, point), misfit = apart_m_s / object.limbs_m_s();
         if (!(misfit < 1.0)) return;
+        const bool moves = expected.norm() > kMoves_m_s;  // what stands before or behind it is not of it
+        if (moves && !(apart_m_s < difference(velocity, Vector3d::Zero(), point))) return;
         cost += 4.0 * misfit * misfit;
       }
       if (!(cost < least)) return;
@@ -66,16 +70,17 @@ class PredictedPoints {
     return nearest;
   }
 
-  /// 0: the feature moves as the object does; 1 and more: it is not of the object.
-  static double misfit_of(const Velocity& velocity, const Vector3d& point, const TrackedObject& object) {
+  /// How far the velocity of a feature is from another one, m/s; its noise along the ray is taken off.
+  static double difference(const Velocity& velocity, const Vector3d& other, const Vector3d& point) {
     constexpr double kSigmas = 3.0;
-    const Vector3d apart = velocity.value - object.velocity_at(point);
+    const Vector3d apart = velocity.value - other;
     const double x = apart.x() - point.x() / point.z() * apart.z(), y = apart.y() - point.y() / point.z() * apart.z();
     const double z = std::max(0.0, std::abs(apart.z()) - kSigmas * velocity.depth_sigma_m_s);
-    return std::sqrt(x * x + y * y + z * z) / object.limbs_m_s();
+    return std::sqrt(x * x + y * y + z * z);
   }
 
  private:
+  static constexpr double kMoves_m_s = 0.2;
   static constexpr DepthTolerance kSameSurface{0.06};
 
   struct Entry {

@@ -21,6 +21,8 @@
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/movers/membership.hpp"
 #include "stillpoint/movers/motion_groups.hpp"
 #include "stillpoint/movers/object_motion.hpp"
@@ -75,6 +77,7 @@ class MoverTracking {
   static constexpr float kBeside_px = 24.0f;      // a cell of support corners, for a focal length of 525 px
   static constexpr double kSlow_m_s = 0.15;       // below it, what does not look dynamic may belong to an object as well
   static constexpr double kAlike_m_s = 0.6;       // parts of one object differ less in their mean velocity
+  static constexpr double kLimb_m = 0.3;          // of one object that is new, parts may be so far from each other
   static constexpr double kMean_s = 0.3;          // over which velocities are averaged for that
   static constexpr double kLong_s = 0.6;          // the same for objects that are known to be two
   static constexpr double kFade_s = 1.0;          // in which the velocity of what is not seen fades
@@ -282,7 +285,7 @@ class MoverTracking {
         u += one.velocity_at(other.mover.centroid) - one.linear.velocity();  // if it turns
         const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? 0.5 * kAlike_m_s : kAlike_m_s;
         if (!(std::min(u.norm(), v.norm()) > slowest) || !((u - v).norm() < alike)) continue;
-        if (!TrackedObject::touch(one, other, MotionGroups::kReach_m)) continue;
+        if (!TrackedObject::touch(one, other, are_known ? MotionGroups::kReach_m : kLimb_m)) continue;
         const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.mover.id < one.mover.id);
         if (keeps_other) std::swap(one, other);
         for (const Vector3d& point : other.points)
@@ -325,7 +328,7 @@ class MoverTracking {
     object.mover.last_seen_s = frame.timestamp_s;
     object.appearance.blend(appearance, 0.1f);
     measure(object, pairs.first(steps), current_from_reference, elapsed_s, workspace);
-    refresh_points(object, o, object_of, labels, matches, dynamic);
+    refresh_points(object, o, object_of, labels, matches, camera, frame, dynamic);
     settle(object, members, elapsed_s);
   }
 
@@ -357,11 +360,28 @@ class MoverTracking {
     object.path_covariance += step_covariance;
   }
 
-  /// The dynamic members' points are the object's; where these are few, as of an object that has just stopped, the old
-  /// ones stay.
+  /// The dynamic members' points are the object's, and those that something nearer hides now; where these are few, as
+  /// of an object that has just stopped, the old ones stay.
+  template <class Camera>
   void refresh_points(TrackedObject& object, std::size_t o, span<const std::int32_t> object_of,
-                      span<const Label> labels, const Matches& matches, std::size_t dynamic) const {
-    if (2 * dynamic >= object.points.size()) object.points.clear();
+                      span<const Label> labels, const Matches& matches, const Camera& camera, const FrameView& frame,
+                      std::size_t dynamic) const {
+    constexpr DepthTolerance kSameSurface{0.1};
+    const auto is_hidden = [&](const Vector3d& point) {
+      constexpr double kNearest_m = 0.05;
+      if (frame.depth.empty() || !(point.z() > kNearest_m)) return false;
+      const DepthScale to_depth(frame.image(), frame.depth.image);
+      const Vector2f pixel = to_depth(camera.distort(camera.project(point)).template cast<float>());
+      if (!(frame.depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.0f)) return false;
+      const auto there_m = static_cast<double>(frame.depth.metres(rounded(pixel.x()), rounded(pixel.y())));
+      return there_m > 0 && there_m < point.z() - kSameSurface.at(0.0);
+    };
+    if (2 * dynamic >= object.points.size()) {
+      std::size_t hidden = 0;
+      for (const Vector3d& point : object.points)
+        if (hidden < TrackedObject::kMostPoints / 2 && is_hidden(point)) object.points[hidden++] = point;
+      object.points.resize(hidden);
+    }
     const std::size_t room = TrackedObject::kMostPoints - object.points.size();
     const std::size_t every = std::max<std::size_t>(1, (dynamic + room) / std::max<std::size_t>(room, 1));
     std::size_t next = 0;
