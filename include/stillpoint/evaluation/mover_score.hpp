@@ -50,6 +50,7 @@ class MoverScore {
   /// @param object_count  in the sequence
   explicit MoverScore(std::size_t object_count) : tracks_(object_count), figures_(object_count) {}
 
+  /// The first frame handed over is left out: nobody can know motion from it.
   /// @param objects     as many as the constructor was told
   /// @param object_of   of each of the host's features: the object on whose pixels it lies, -1 none or not known
   /// @throws Error if the sizes differ
@@ -59,6 +60,7 @@ class MoverScore {
       throw Error("mover score: " + std::to_string(objects.size()) + " objects and " +
                   std::to_string(object_of.size()) + " features, expected " + std::to_string(tracks_.size()) + " and " +
                   std::to_string(result.size()));
+    if (frames_seen_++ == 0) return;
     const Pose camera_from_world = inverted(world_from_camera);
     const bool has_motion = judged(result.status());
     frames_ += has_motion;
@@ -172,7 +174,7 @@ class MoverScore {
 
   std::vector<Track> tracks_;
   std::vector<MoverFigures> figures_;
-  std::size_t frames_ = 0, frames_with_movers_ = 0;
+  std::size_t frames_seen_ = 0, frames_ = 0, frames_with_movers_ = 0;
 };
 
 }  // namespace stillpoint

@@ -39,7 +39,7 @@ class MoverTracking {
 
   struct Options {
     std::size_t fewest_features = 8;  ///< of an object that is seen; the filter's own corners count
-    double least_path_m = 0.04;       ///< a new object is reported when it has gone so far …
+    double least_path_m = 0.03;       ///< a new object is reported when it has gone so far …
     double least_path_sigmas = 6.0;   ///< … and so many standard deviations of that
     double remembered_s = 2.0;        ///< an object that is not seen for longer is forgotten
     double pixel_sigma = 0.5;         ///< of a match, pixels
@@ -94,6 +94,7 @@ class MoverTracking {
       object.angular.predict(turn, elapsed_s, kAngular_rad_s2);
       object.mover.centroid = current_from_reference * object.mover.centroid;
       object.mean_velocity = turn * object.mean_velocity;
+      object.mean_turn = turn * object.mean_turn;
       object.long_velocity = turn * object.long_velocity;
       object.path = turn * object.path;
       object.path_covariance = turn * object.path_covariance * turn.transpose();
@@ -108,7 +109,7 @@ class MoverTracking {
   /// Of the object in the world, in the current camera's axes.
   static Pose predicted_step(const TrackedObject& object, double elapsed_s) {
     Pose step = Pose::Identity();
-    if (object.mover.has_rotation) step.linear() = rotation_from_vector(elapsed_s * object.angular.velocity());
+    if (object.turns) step.linear() = rotation_from_vector(elapsed_s * object.angular.velocity());
     const Vector3d& centroid = object.mover.centroid;
     step.translation() = centroid + elapsed_s * object.linear.velocity() - step.linear() * centroid;
     return step;
@@ -340,24 +341,37 @@ class MoverTracking {
     const std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
     const double share = 1.0 - std::exp(-elapsed_s / 0.3);
     object.rigid_share += share * ((turned ? turned->inlier_share : 0.0) - object.rigid_share);
-    if (turned && object.rigid_share > kRigid) best = *turned;
+    if (turned) observe_turn(object, *turned, elapsed_s);
+    const bool is_rigid = turned && object.rigid_share > kRigid;
+    if (is_rigid && object.turns) best = *turned;
     Mover& mover = object.mover;
-    mover.has_rotation = best.has_rotation;
+    mover.has_rotation = is_rigid;
     mover.current_from_reference = orthonormalized(best.moved * current_from_reference);
-    mover.covariance = kCorrelation * best.covariance;
+    mover.covariance = kCorrelation * (is_rigid ? turned->covariance : shifted->covariance);
     const Vector3d before = inverted(best.moved) * object.mover.centroid;
     const Vector3d step = object.mover.centroid - before;
     const Matrix3d step_covariance = kCorrelation * shifted->covariance.bottomRightCorner<3, 3>();
     object.linear.correct(step / elapsed_s, step_covariance / (elapsed_s * elapsed_s));
-    if (turned)
-      object.angular.correct(vector_from_rotation(turned->moved.linear()) / elapsed_s,
-                             kCorrelation * turned->covariance.topLeftCorner<3, 3>() / (elapsed_s * elapsed_s));
     const double half_second = 1.0 - std::exp(-elapsed_s / kMean_s);
     const double second = 1.0 - std::exp(-elapsed_s / kLong_s);
     object.long_velocity += (object.seen_frames <= 1 ? 1.0 : second) * (step / elapsed_s - object.long_velocity);
     object.mean_velocity += (object.seen_frames <= 1 ? 1.0 : half_second) * (step / elapsed_s - object.mean_velocity);
     object.path += step;
     object.path_covariance += step_covariance;
+  }
+
+  /// A turn that noise explains is none: integrated over a second, noise would be degrees.
+  static void observe_turn(TrackedObject& object, const ObjectMotion& turned, double elapsed_s) {
+    constexpr double kTurns_sq = 25.0, kNoLonger_sq = 9.0;  // squared standard deviations
+    const Vector3d turn = vector_from_rotation(turned.moved.linear()) / elapsed_s;
+    const Matrix3d covariance = kCorrelation / (elapsed_s * elapsed_s) * turned.covariance.topLeftCorner<3, 3>();
+    object.angular.correct(turn, covariance);
+    const double share = 1.0 - std::exp(-elapsed_s / kMean_s);
+    object.mean_turn += share * (turn - object.mean_turn);
+    object.mean_turn_covariance += share * (share * covariance - (2.0 - share) * object.mean_turn_covariance);
+    const Cholesky<3> factors(object.mean_turn_covariance);
+    const double sigmas_sq = object.mean_turn.dot(factors.solve(object.mean_turn));
+    object.turns = sigmas_sq > (object.turns ? kNoLonger_sq : kTurns_sq);
   }
 
   /// The dynamic members' points are the object's, and those that something nearer hides now; where these are few, as
@@ -404,7 +418,7 @@ class MoverTracking {
     if (!(path_m > (speed > kSlow_m_s ? least_m : 3 * least_m)) || members < 12) return;
     const Cholesky<3> factors(object.path_covariance);
     const double sigmas_sq = object.path.dot(factors.solve(object.path));
-    object.is_confirmed = sigmas_sq > options.least_path_sigmas * options.least_path_sigmas && object.seen_frames >= 3;
+    object.is_confirmed = sigmas_sq > options.least_path_sigmas * options.least_path_sigmas && object.seen_frames >= 2;
     if (object.is_confirmed) object.mover.id = ++last_id_;
   }
 

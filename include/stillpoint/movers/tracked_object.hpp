@@ -69,6 +69,9 @@ struct TrackedObject {
   Appearance appearance;
   Vector3d mean_velocity = Vector3d::Zero();    ///< of the last half second: limbs swing about it, m/s
   Vector3d long_velocity = Vector3d::Zero();    ///< of the last second
+  Vector3d mean_turn = Vector3d::Zero();        ///< of the last half second, rad/s
+  Matrix3d mean_turn_covariance = Matrix3d::Identity();
+  bool turns = false;  ///< that is more than noise
   Vector3d path = Vector3d::Zero();             ///< the way gone since it was seen first, metres
   Matrix3d path_covariance = Matrix3d::Zero();  ///< of it
   int seen_frames = 0;
@@ -88,7 +91,7 @@ struct TrackedObject {
   /// Of a point of the object, relative to the world: with its turn where that is known.
   Vector3d velocity_at(const Vector3d& point) const {
     Vector3d velocity = linear.velocity();
-    if (mover.has_rotation) velocity += angular.velocity().cross(point - mover.centroid);
+    if (turns) velocity += angular.velocity().cross(point - mover.centroid);
     return velocity;
   }
 
