@@ -61,6 +61,13 @@ struct Movers {
   std::vector<Vector2f> pixel;            ///< of the keypoints and of the filter's own corners, mover by mover
   std::vector<std::int32_t> of_feature;   ///< index into `list` of each host's keypoint, or `kNone`
 
+  /// Nothing is allocated later, as long as there are not more.
+  void reserve(std::size_t features, std::size_t movers) {
+    list.reserve(movers);
+    feature.reserve(features);
+    pixel.reserve(features);
+  }
+
   void begin(std::size_t feature_count) {
     list.clear();
     feature.clear();

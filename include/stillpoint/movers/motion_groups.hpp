@@ -16,6 +16,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/movers/moving_features.hpp"
 #include "stillpoint/movers/object_motion.hpp"
 
 namespace stillpoint {
@@ -32,6 +33,17 @@ struct DynamicPoints {
       : feature(workspace.take<std::uint32_t>(most)),
         pair(workspace.take<WhitenedPair>(most)),
         has_step(workspace.take<std::uint8_t>(most)) {}
+
+  template <class Camera>
+  void add(std::size_t i, const MovingFeatures<Camera>& features) {
+    feature[size] = static_cast<std::uint32_t>(i);
+    has_step[size] = features.matches.metric(i);
+    if (has_step[size] != 0)
+      pair[size] = features.pair(i);
+    else
+      pair[size].current = features.matches.current.point[i];
+    ++size;
+  }
 
   const Vector3d& point(std::size_t k) const noexcept { return pair[k].current; }
   Vector3d step(std::size_t k) const { return pair[k].current - pair[k].reference; }

@@ -2,91 +2,68 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// One object as it is remembered from frame to frame, and when it counts as moving, parked or lost.
+// One object as it is remembered from frame to frame.
 
-#include <Eigen/Core>
-
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/image.hpp"
 #include "stillpoint/core/mover.hpp"
-#include "stillpoint/core/small_linear_algebra.hpp"
-#include "stillpoint/core/span.hpp"
+#include "stillpoint/movers/appearance.hpp"
 #include "stillpoint/movers/constant_velocity.hpp"
 
 namespace stillpoint {
 
-/// What an object looks like: a histogram of its gray levels.
-class Appearance {
+/// Points on an object's surface, metres. No heap.
+class ObjectPoints {
  public:
-  static constexpr std::size_t kBins = 16;
+  static constexpr std::size_t kMost = 320;
 
-  void add(const ImageView& gray, const Vector2f& pixel) {
-    constexpr int kStep_px = 3;
-    const int u = rounded(pixel.x()), v = rounded(pixel.y());
-    for (int dv = -kStep_px; dv <= kStep_px; dv += kStep_px)
-      for (int du = -kStep_px; du <= kStep_px; du += kStep_px)
-        if (gray.contains(u + du, v + dv))
-          bins_[gray.row<std::uint8_t>(v + dv)[u + du] * kBins / 256] += 1.0f, sum_ += 1.0f;
-  }
+  std::size_t size() const noexcept { return size_; }
+  bool empty() const noexcept { return size_ == 0; }
+  bool full() const noexcept { return size_ == kMost; }
+  Vector3d& operator[](std::size_t k) noexcept { return points_[k]; }
+  const Vector3d& operator[](std::size_t k) const noexcept { return points_[k]; }
+  Vector3d* begin() noexcept { return points_.data(); }
+  Vector3d* end() noexcept { return points_.data() + size_; }
+  const Vector3d* begin() const noexcept { return points_.data(); }
+  const Vector3d* end() const noexcept { return points_.data() + size_; }
 
-  /// Hellinger's distance, 0 (alike) to 1; ½ where nothing is known.
-  float distance(const Appearance& other) const noexcept {
-    if (!(sum_ > 0) || !(other.sum_ > 0)) return 0.5f;
-    float overlap = 0;
-    for (std::size_t b = 0; b < kBins; ++b) overlap += std::sqrt(bins_[b] / sum_ * (other.bins_[b] / other.sum_));
-    return std::sqrt(std::max(0.0f, 1.0f - overlap));
+  /// Nothing happens where it is full.
+  void add(const Vector3d& point) noexcept {
+    if (!full()) points_[size_++] = point;
   }
-
-  /// Learns what it looks like now.
-  void blend(const Appearance& now, float share) noexcept {
-    if (!(now.sum_ > 0)) return;
-    if (!(sum_ > 0)) share = 1.0f;
-    for (std::size_t b = 0; b < kBins; ++b) {
-      const float old = sum_ > 0 ? bins_[b] / sum_ : 0.0f;
-      bins_[b] = old + share * (now.bins_[b] / now.sum_ - old);
-    }
-    sum_ = 1.0f;
-  }
+  void shrink(std::size_t size) noexcept { size_ = std::min(size, size_); }
 
  private:
-  std::array<float, kBins> bins_{};
-  float sum_ = 0;
+  std::array<Vector3d, kMost> points_;
+  std::size_t size_ = 0;
 };
 
 /// An object that is followed. Vectors are in the axes of the last frame's camera.
 struct TrackedObject {
-  static constexpr std::size_t kMostPoints = 320;
+  static constexpr double kAcceleration_m_s2 = 4.0, kAngular_rad_s2 = 4.0;  // standard deviations: people start and stop
 
   Mover mover;
-  std::vector<Vector3d> points;  ///< on its surface, at most `kMostPoints`
+  ObjectPoints points;
   ConstantVelocity linear{1.0}, angular{1.0};
   Appearance appearance;
-  Vector3d mean_velocity = Vector3d::Zero();    ///< of the last half second: limbs swing about it, m/s
-  Vector3d long_velocity = Vector3d::Zero();    ///< of the last second
-  Vector3d mean_turn = Vector3d::Zero();        ///< of the last half second, rad/s
+  Vector3d mean_velocity = Vector3d::Zero();  ///< of the last third of a second: limbs swing about it, m/s
+  Vector3d long_velocity = Vector3d::Zero();  ///< of the last second
+  Vector3d mean_turn = Vector3d::Zero();      ///< of the last third of a second, rad/s
   Matrix3d mean_turn_covariance = Matrix3d::Identity();
-  bool turns = false;  ///< that is more than noise
-  Vector3d path = Vector3d::Zero();             ///< the way gone since it was seen first, metres
-  Matrix3d path_covariance = Matrix3d::Zero();  ///< of it
+  Vector3d path = Vector3d::Zero();  ///< the way gone since it was seen first, metres
+  Matrix3d path_covariance = Matrix3d::Zero();
   int seen_frames = 0;
-  double slow_s = 0;         ///< for how long it has hardly moved
-  double rigid_share = 0.5;  ///< mean over time of the share of its points that move as one rigid body
-  bool is_confirmed = false;
-  bool is_seen = true;  ///< in the last frame
+  std::size_t members = 0;    ///< features in the last frame in which it was seen
+  double slow_s = 0;          ///< for how long it has hardly moved
+  double rigid_share = 0.5;   ///< mean over time of the share of its points that move as one rigid body
+  bool turns = false;         ///< `mean_turn` is more than noise
+  bool is_confirmed = false;  ///< it is reported
+  bool is_seen = true;        ///< in the last frame
 
-  TrackedObject() { points.reserve(kMostPoints); }
-
-  Vector3d centroid_of_points() const {
-    Vector3d sum = Vector3d::Zero();
-    for (const Vector3d& point : points) sum += point;
-    return points.empty() ? mover.centroid : Vector3d(sum / static_cast<double>(points.size()));
-  }
+  double mean_speed() const { return mean_velocity.norm(); }
 
   /// Of a point of the object, relative to the world: with its turn where that is known.
   Vector3d velocity_at(const Vector3d& point) const {
@@ -101,7 +78,31 @@ struct TrackedObject {
     return 0.15 + 0.2 * speed + (1.0 - rigid_share) * (0.3 + 0.6 * speed);
   }
 
-  double mean_speed() const { return mean_velocity.norm(); }
+  /// Its motion in the world within a time, in the current camera's axes, at constant velocity.
+  Pose step(double elapsed_s) const {
+    Pose step = Pose::Identity();
+    if (turns) step.linear() = rotation_from_vector(elapsed_s * angular.velocity());
+    step.translation() = mover.centroid + elapsed_s * linear.velocity() - step.linear() * mover.centroid;
+    return step;
+  }
+
+  /// Where it is in the coming frame at constant velocity.
+  void predict(const Pose& current_from_reference, double elapsed_s) {
+    const Matrix3d& turn = current_from_reference.linear();
+    linear.predict(turn, elapsed_s, kAcceleration_m_s2);
+    angular.predict(turn, elapsed_s, kAngular_rad_s2);
+    mean_velocity = turn * mean_velocity;
+    long_velocity = turn * long_velocity;
+    mean_turn = turn * mean_turn;
+    mean_turn_covariance = turn * mean_turn_covariance * turn.transpose();
+    path = turn * path;
+    path_covariance = turn * path_covariance * turn.transpose();
+    mover.centroid = current_from_reference * mover.centroid;
+    const Pose current_from_last = step(elapsed_s) * current_from_reference;
+    mover.centroid = step(elapsed_s) * mover.centroid;
+    mover.current_from_reference = current_from_last;
+    for (Vector3d& point : points) point = current_from_last * point;
+  }
 
   /// The two hang together: some points of the one are near points of the other. A sample of the points is compared.
   static bool touch(const TrackedObject& a, const TrackedObject& b, double reach_m) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
@@ -16,6 +17,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
+#include "stillpoint/movers/moving_features.hpp"
 #include "stillpoint/movers/tracked_object.hpp"
 
 namespace stillpoint {
@@ -35,17 +37,13 @@ class PredictedPoints {
         point_(workspace.take<Entry>(count_)),
         grid_(fill(objects, camera), reach_px_, workspace, [](std::size_t) { return true; }) {}
 
-  /// How fast a feature went.
-  struct Velocity {
-    bool is_known = false;
-    Vector3d value = Vector3d::Zero();  ///< relative to the world, m/s
-    double depth_sigma_m_s = 0;         ///< of it, along the ray; across it is much better known
-  };
-
   /// The object that has the nearest point in image, depth and motion; `kNone` where none is near.
   /// @param point  of the feature, in the current camera
-  std::int32_t object_at(const Vector2f& pixel, const Vector3d& point, double sigma_m, const Velocity& velocity,
+  /// @param velocity_of  `FeatureVelocity()`, asked where an object is near
+  template <class VelocityOf>
+  std::int32_t object_at(const Vector2f& pixel, const Vector3d& point, double sigma_m, const VelocityOf& velocity_of,
                          const std::vector<TrackedObject>& objects) const {
+    std::optional<FeatureVelocity> velocity;
     const double tolerance_m = kSameSurface.at(sigma_m);
     std::int32_t nearest = kNone;
     double least = 1e30;
@@ -54,13 +52,14 @@ class PredictedPoints {
       const double apart = (static_cast<double>(entry.depth_m) - point.z()) / tolerance_m;
       if (!(apart * apart <= 1.0)) return;
       double cost = static_cast<double>(squared_px / (reach_px_ * reach_px_)) + apart * apart;
-      if (velocity.is_known) {
+      if (!velocity) velocity = velocity_of();
+      if (velocity->is_known) {
         const TrackedObject& object = objects[static_cast<std::size_t>(entry.object)];
         const Vector3d expected = object.velocity_at(point);
-        const double apart_m_s = difference(velocity, expected, point), misfit = apart_m_s / object.limbs_m_s();
+        const double apart_m_s = velocity->difference(expected, point), misfit = apart_m_s / object.limbs_m_s();
         if (!(misfit < 1.0)) return;
         const bool moves = expected.norm() > kMoves_m_s;  // what stands before or behind it is not of it
-        if (moves && !(apart_m_s < difference(velocity, Vector3d::Zero(), point))) return;
+        if (moves && !(apart_m_s < velocity->difference(Vector3d::Zero(), point))) return;
         cost += 4.0 * misfit * misfit;
       }
       if (!(cost < least)) return;
@@ -68,15 +67,6 @@ class PredictedPoints {
       nearest = entry.object;
     });
     return nearest;
-  }
-
-  /// How far the velocity of a feature is from another one, m/s; its noise along the ray is taken off.
-  static double difference(const Velocity& velocity, const Vector3d& other, const Vector3d& point) {
-    constexpr double kSigmas = 3.0;
-    const Vector3d apart = velocity.value - other;
-    const double x = apart.x() - point.x() / point.z() * apart.z(), y = apart.y() - point.y() / point.z() * apart.z();
-    const double z = std::max(0.0, std::abs(apart.z()) - kSigmas * velocity.depth_sigma_m_s);
-    return std::sqrt(x * x + y * y + z * z);
   }
 
  private:
