@@ -29,18 +29,6 @@
 
 namespace stillpoint {
 
-/// The stage that a set has for movers: none where it names none.
-template <class Policies, class = void>
-struct NamedMovers {
-  using type = NoMovers;
-};
-template <class Policies>
-struct NamedMovers<Policies, std::void_t<typename Policies::Movers>> {
-  using type = typename Policies::Movers;
-};
-template <class Policies>
-using MoversOf = typename NamedMovers<Policies>::type;
-
 /// Tells which of a frame's features stand still. One filter for one camera; two filters know nothing of each other,
 /// one is not for two threads. Prints nothing, starts no thread, changes nothing of the host's.
 /// @tparam Policies one type for each stage (policies.hpp); inherit from a set and name another type to replace a
@@ -69,7 +57,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   typename Policies::Classifier classifier;     ///< what moves together?
   Memory memory;                                ///< what did we know of this feature?
   typename Policies::KeepFloor keep_floor;      ///< how much must be left?
-  MoversOf<Policies> movers;                    ///< which objects are they of?
+  MoversOf<Policies> movers;                    ///< which objects move, and how?
   MaskPrediction mask_prediction;               ///< where will the coming frame show what moves?
 
   /// Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time.
@@ -198,7 +186,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches.current.depth_m);
     });
-    if constexpr (!std::is_same_v<MoversOf<Policies>, NoMovers>)
+    if constexpr (!std::is_same_v<MoversOf<Policies>, NoMovers>)  // which then costs nothing, not even a look at the clock
       timings.run(Stage::movers, [&] {
         movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_);
       });
