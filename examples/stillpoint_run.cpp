@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -84,6 +85,8 @@ void run(const Options& options) {
   make_folder(options.out);
   FeaturesFile features(options.out / "features.csv");
   FramesFile frames(options.out / "frames.csv");
+  std::optional<MoversFile> movers;
+  if (!options.no_movers) movers.emplace(options.out / "movers.csv");
   Gallery gallery(frame_count(options, *source));
 
   std::string yaml;
@@ -92,7 +95,7 @@ void run(const Options& options) {
     describe(filter, yaml, stages);
     const auto tracker = [&] { return make_tracker(options, source->camera()); };
     return run_frames(options, *source, *detector, std::move(filter), tracker(), tracker(),
-                      RunOutput{features, frames, gallery});
+                      RunOutput{features, frames, movers ? &*movers : nullptr, gallery});
   });
   const Figures figures = evaluate(record);
   const std::string json = report_json(options, record, figures, stages);
@@ -102,6 +105,7 @@ void run(const Options& options) {
   stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
   features.commit();
   frames.commit();
+  if (movers) movers->commit();
   if (!yaml.empty()) write_whole(options.out / "options.yaml", yaml);
   write_whole(options.out / "report.json", json);
   write_whole(options.out / "report.html", html);

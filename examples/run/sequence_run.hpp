@@ -80,6 +80,7 @@ inline void begin_at_identity(stillpoint::Trajectory& trajectory) {
 struct RunOutput {
   FeaturesFile& features;
   FramesFile& frames;
+  MoversFile* movers;  ///< null: not wanted
   Gallery& gallery;
 };
 
@@ -150,6 +151,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
 
     output.features.write(record);
     output.frames.write(record.summary);
+    if (output.movers != nullptr) output.movers->write(record);
     output.gallery.show(frame, record, source.camera());
     run.frames.push_back(record.summary);
     progress.frame_done();

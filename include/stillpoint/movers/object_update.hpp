@@ -95,7 +95,7 @@ class ObjectUpdate {
 
   /// A turn that noise explains is taken for none: integrated over a second, it would be degrees.
   static void observe_turn(TrackedObject& object, const ObjectMotion& turned, double elapsed_s) {
-    constexpr double kTurns_sq = 25.0, kNoLonger_sq = 9.0;  // squared standard deviations
+    constexpr double kTurns_sq = 16.0, kNoLonger_sq = 4.0;  // squared standard deviations
     const Vector3d turn = vector_from_rotation(turned.moved.linear()) / elapsed_s;
     const Matrix3d covariance = kCorrelation / (elapsed_s * elapsed_s) * turned.covariance.topLeftCorner<3, 3>();
     object.angular.correct(turn, covariance);
