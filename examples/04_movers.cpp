@@ -27,7 +27,13 @@ int main() {
     orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
     for (const auto& box : frame.boxes)  // class 0: person
       filter.prior.detections.push_back({{float(box.x), float(box.y), float(box.width), float(box.height)},
-                                         stillpoint::Mobility::dynamic, 1.0f, 0, INFINITY, 0, nullptr, 0});
+                                         stillpoint::Mobility::dynamic,
+                                         1.0f,
+                                         0,
+                                         INFINITY,
+                                         0,
+                                         nullptr,
+                                         0});
     // [movers]
     for (const stillpoint::Mover& mover : filter.filter_frame(frame.view(), keypoints).movers())
       std::printf("frame %d: %s %u: %.1f m ahead, %.1f m/s to the %s (%s)\n", i,

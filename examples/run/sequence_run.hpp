@@ -95,7 +95,7 @@ struct RunOutput {
   FeaturesFile& features;
   FramesFile& frames;
   PictureRoll& pictures;
-  VideoFile* video;  ///< null where nobody asked for one
+  VideoFile* video;    ///< null where nobody asked for one
   MoversFile* movers;  ///< null: not wanted
 };
 
