@@ -24,10 +24,11 @@ cmake --build "$site/reference" --target stillpoint_docs
 # The guides, and what they link to, lie in the site as in the project: their links hold in both.
 # README.md says in which order the guides are read; a guide that it does not name comes after them.
 mapfile -t guides < <({ grep -oE '\]\(docs/[a-z0-9_]+\.md' README.md | sed 's|^](||'; printf '%s\n' docs/*.md; } | awk '!seen[$0]++')
+mapfile -t hosts < <(ls -d docs/hosts/*.md 2> /dev/null)
 mapfile -t fronts < <(ls -d python/README.md ros/README.md shim/README.md 2> /dev/null)
 mapfile -t design < <(ls -d docs/design/*.md 2> /dev/null)
 project=(CHANGELOG.md CONTRIBUTING.md SECURITY.md)
-pages=(README.md "${guides[@]}" "${design[@]}" "${fronts[@]}" "${project[@]}")
+pages=(README.md "${guides[@]}" "${hosts[@]}" "${design[@]}" "${fronts[@]}" "${project[@]}")
 
 rm -rf "$site/pages" "$site/html"
 mkdir -p "$site/pages"
@@ -60,6 +61,7 @@ section() {
   echo 'nav:'
   echo '  - Home: README.md'
   section Guides "${guides[@]}"
+  section Hosts "${hosts[@]}"
   section 'Other ways in' "${fronts[@]}"
   section Design "${design[@]}"
   echo '  - API reference: reference/index.html'
