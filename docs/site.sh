@@ -17,7 +17,7 @@ bash tests/structure/links.sh .
 # The reference. It needs the headers alone, so that OpenCV is not asked for.
 cmake -S . -B "$site/reference" -G Ninja --log-level=WARNING -DSTILLPOINT_WITH_OPENCV=OFF -DSTILLPOINT_BUILD_TESTS=OFF \
   -DSTILLPOINT_BUILD_EXAMPLES=OFF -DSTILLPOINT_BUILD_BENCHMARKS=OFF -DSTILLPOINT_BUILD_SHIM=OFF \
-  -DSTILLPOINT_BUILD_COMPILED=OFF -DSTILLPOINT_BUILD_DOCS=ON > /dev/null
+  -DSTILLPOINT_BUILD_COMPILED=OFF -DSTILLPOINT_BUILD_DOCS=ON -DSTILLPOINT_DOCS_WITH_GUIDES=OFF > /dev/null
 rm -rf "$site/reference/html"
 cmake --build "$site/reference" --target stillpoint_docs
 
@@ -42,11 +42,7 @@ find "$site/pages" -name '*.md' | while IFS= read -r page; do
   mv "$page.new" "$page"
 done
 cp -r "$site/reference/html" "$site/pages/reference"
-# Doxygen leaves the links of its copies of the guides as they are where they lead to a heading or to another file, and links
-# to #nested-classes on pages that have none.
-sed -i -E 's#href="(docs|examples|shim)/#href="../\1/#g; s#href="(hosts/|[a-z0-9_]+\.md)#href="../docs/\1#g
-  s#href="\.\./README\.md#href="../index.html#g; s#href="(\.\./[a-z0-9_/]+)\.md([\#"])#href="\1.html\2#g' \
-  "$site"/pages/reference/{index,md_*}.html
+# Doxygen links to #nested-classes on pages that have none.
 grep -l 'href="#nested-classes"' "$site"/pages/reference/*.html | xargs -r grep -L 'name="nested-classes"' |
   xargs -r sed -i 's/ href="#nested-classes"//'
 
