@@ -101,7 +101,7 @@ TEST_F(EvidenceMemoryTest, ParkedMovingParked) {
 TEST_F(EvidenceMemoryTest, AHostsMapIsEvidence) {
   const std::vector<Feature> features = {{Vector2f(50, 50)}, {Vector2f(60, 50)}, {Vector2f(50, 60), 3.0}};
   frame(features, {-3, -3, -3});
-  const std::uint8_t is_dynamic[] = {1, 0, 0};
+  const std::vector<std::uint8_t> is_dynamic = {1, 0, 0};
   memory_.expect_dynamic(is_dynamic);
   frame(features, {-3, -3, -3});
   EXPECT_FALSE(labels_[0].keep);

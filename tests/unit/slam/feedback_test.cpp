@@ -117,7 +117,7 @@ double dropped_share(bool uses_multi_view) {
   ten_per_second.frame_rate_hz = 10;
   ten_per_second.frames = 50;
   constexpr double kSpeed = 0.01, kSeconds = 5.0;
-  stillpoint::Scene scene = stillpoint::synthetic::static_room(ten_per_second);
+  stillpoint::synthetic::Scene scene = stillpoint::synthetic::static_room(ten_per_second);
   const auto creep = stillpoint::synthetic::PathBuilder({0.3, 0, 2.0}, 0.3)
                          .slide_to({0.3 + kSpeed * kSeconds, 0, 2.0}, kSpeed)
                          .path(stillpoint::synthetic::Blend::linear);
