@@ -30,8 +30,9 @@ namespace stillpoint_run {
 /// What a run was asked for, as it was given; `parse_options` has checked each value.
 struct Options : InputOptions {
   std::filesystem::path out = "stillpoint_out";
-  std::filesystem::path stages;  ///< options of the filter's stages; empty: as they come
-  bool calibrate = false;        ///< measures noise and writes options, in place of a run
+  std::filesystem::path save_video;  ///< empty: none
+  std::filesystem::path stages;      ///< options of the filter's stages; empty: as they come
+  bool calibrate = false;            ///< measures noise and writes options, in place of a run
   std::string depth_noise = "kinect";
   std::string policies = "default";
   std::string ego_motion = "default";
@@ -52,11 +53,17 @@ struct Options : InputOptions {
   int frames = std::numeric_limits<int>::max();
   std::uint64_t seed = stillpoint::Random::kDefaultSeed;
   int threads = 1;
+  bool no_movers = false;
   bool quiet = false;
   std::vector<std::string> given;  ///< the arguments that were there, as --name
 
   bool is_given(std::string_view name) const { return std::find(given.begin(), given.end(), name) != given.end(); }
   bool has_network() const { return prior != "none" && prior != "boxes" && prior != "labels"; }
+  /// Movers are followed by the default stages alone: others have no metres, or no verdicts to follow.
+  bool has_movers() const {
+    return !no_movers && policies == "default" && prior != "labels" && ego_motion == "default" &&
+           !without.needs_other_stages();
+  }
   /// As reports have it: a network by the name of its file.
   std::string prior_name() const { return has_network() ? std::filesystem::path(prior).filename().string() : prior; }
 
@@ -122,6 +129,17 @@ inline CLI::Validator layout() {
       "");
 }
 
+/// The ending says which codec.
+inline CLI::Validator video_name() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::string ending = std::filesystem::path(text).extension().string();
+        if (ending == ".mp4" || ending == ".avi") return std::string();
+        return "found '" + text + "', expected a name that ends in .mp4 or .avi";
+      },
+      "");
+}
+
 /// What no single option can know.
 inline void require_consistent(const CLI::App& app, const Options& options) {
   const auto given = [&app](const char* name) { return app.count(name) > 0; };
@@ -166,7 +184,8 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
         throw stillpoint::Error(std::string(name) + ": found with --backend " + options.backend +
                                 ", expected --backend slam, whose part it is");
   if (options.calibrate)
-    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend"})
+    for (const char* name :
+         {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend", "--save-video"})
       if (given(name))
         throw stillpoint::Error(std::string(name) +
                                 ": found with --calibrate, which measures with the default policies and no tracker");
@@ -199,6 +218,10 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   };
   detail::add_input_options(app, options);
   add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
+  add_path("--save-video", "OUT.mp4", options.save_video,
+           "the frames with what was decided of them and the trajectories beside, as a video: .mp4 or .avi")
+      ->check(detail::video_name())
+      ->default_str("");
   add_path(
       "--options", "FILE", options.stages,
       "options of the filter's stages, as an earlier run or --calibrate left them in options.yaml; what is said here "
@@ -277,6 +300,9 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   add_number("--seed", options.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
              "of the filter's random numbers");
   add_number("--threads", options.threads, 1, 1024, "that OpenCV may use; results do not depend on it");
+  app.add_flag("--no-movers", options.no_movers,
+               "follows no objects and writes no movers.csv; verdicts are the same. The default stages alone follow "
+               "objects: with others the file is empty");
   app.add_flag("--quiet", options.quiet, "no progress on standard error");
 
   try {

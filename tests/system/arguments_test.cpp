@@ -24,6 +24,7 @@ TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
                            "--video",
                            "--fps",
                            "--out",
+                           "--save-video",
                            "--camera",
                            "--options",
                            "--calibrate",
@@ -112,7 +113,7 @@ TEST(StillpointRunArguments, ThatContradictEachOther) {
 }
 
 TEST(StillpointRunArguments, StartBeyondTheLastFrame) {
-  expect_error("--demo --start 100000", {"--start", "found 100000", "expected less than 60"});
+  expect_error("--demo --start 100000", {"--start", "found 100000", "expected less than 150"});
 }
 
 TEST(StillpointRunArguments, OutThatIsAFile) {

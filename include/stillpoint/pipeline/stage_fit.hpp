@@ -10,6 +10,7 @@
 
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint {
 
@@ -173,11 +174,14 @@ using NeedsOf = NeedList<
     Need<typename P::EgoMotion, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::Scorer, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::Classifier, typename P::DepthLookup, capability::metric_depth>,
+    Need<MoversOf<P>, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::EgoMotion, typename P::Matcher, capability::matches>,
+    Need<MoversOf<P>, typename P::Matcher, capability::matches>,
     Need<typename P::Scorer, typename P::Matcher, capability::feature_matches>,
     Need<typename P::Scorer, typename P::Matcher, capability::past_observations>,
     Need<typename P::Classifier, typename P::Matcher, capability::feature_matches>,
     Need<typename P::Scorer, typename P::EgoMotion, capability::metric_motion>,
+    Need<MoversOf<P>, typename P::EgoMotion, capability::metric_motion>,
     Need<typename P::Gate, typename P::Scorer, capability::log_likelihoods>,
     Need<typename P::Classifier, typename P::Scorer, capability::log_likelihoods>,
     Need<typename P::Classifier, typename P::Gate, capability::tail_threshold>,
