@@ -12,7 +12,7 @@ FROM debian:12
 # sources does not download them again.
 RUN apt-get update \
  && apt-get install -y --no-install-recommends \
-      g++ cmake ninja-build libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev libceres-dev nlohmann-json3-dev \
+      g++ cmake ninja-build libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev nlohmann-json3-dev \
  && rm -rf /var/lib/apt/lists/*
 
 WORKDIR /stillpoint
