@@ -228,7 +228,7 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("classifier", filter.classifier);
   visit("memory", filter.memory);
   visit("keep_floor", filter.keep_floor);
-  visit("movers", filter.movers);
+  if constexpr (!std::is_same_v<MoversOf<Policies>, NoMovers>) visit("movers", filter.movers);
   visit("mask_prediction", filter.mask_prediction);
 }
 
