@@ -6,8 +6,10 @@
 
 #include <opencv2/core/types.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/opencv.hpp"
@@ -36,6 +39,7 @@ struct FeatureRow {
 /// A frame as a whole.
 struct FrameSummary {
   double timestamp_s = 0.0;
+  double time_s = 0.0;  ///< since the run's first frame
   stillpoint::Status status = stillpoint::Status::ok;
   stillpoint::Warnings warnings;
   const char* hint = "";  ///< what is probably wrong with the input
@@ -43,6 +47,7 @@ struct FrameSummary {
   stillpoint::Timings timings;
   double extract_ms = 0.0, track_ms = 0.0;
   std::size_t features = 0, kept = 0, keep_floor_kept = 0;
+  std::optional<double> kept_score;          ///< median score of the features kept
   stillpoint::DropCount moving, background;  ///< of this frame alone; empty where there are no labels
 };
 
@@ -52,9 +57,16 @@ struct RegionRow {
   std::string class_name;
 };
 
+/// An object that the filter follows.
+struct MoverRow {
+  stillpoint::Mover mover;
+  std::string class_name;  ///< one word
+};
+
 /// What the filter said of the current frame, refilled each time.
 struct FrameRecord {
   FrameSummary summary;
+  std::vector<MoverRow> movers;
   std::vector<RegionRow> regions;
   std::vector<FeatureRow> rows;
   std::vector<stillpoint::Vector2f> pixels;
@@ -76,12 +88,28 @@ inline void begin_record(const std::vector<cv::KeyPoint>& keypoints, stillpoint:
   record.pixels.clear();
   for (const cv::KeyPoint& keypoint : keypoints) record.pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
   record.regions.clear();
+  record.movers.clear();
   record.rows.clear();
   for (const stillpoint::Vector2f& pixel : record.pixels)
     record.rows.push_back({pixel, {}, "", stillpoint::FeatureScore{}.value, 0.0, stillpoint::Mobility::unknown});
   record.summary.features = keypoints.size();
   record.summary.kept = 0;
   for (const std::uint8_t flag : keep) record.summary.kept += flag != 0 ? 1 : 0;
+}
+
+inline std::optional<double> median_kept_score(const std::vector<FeatureRow>& rows) {
+  std::vector<double> scores;
+  for (const FeatureRow& row : rows)
+    if (row.label.keep && std::isfinite(row.score)) scores.push_back(static_cast<double>(row.score));
+  if (scores.empty()) return std::nullopt;
+  return stillpoint::error_statistics(scores).median;
+}
+
+/// As boxes.txt has it: a column of a file.
+inline std::string one_word(std::string name) {
+  for (char& c : name)
+    if (c == ' ' || c == ',' || c == '\n') c = '_';
+  return name.empty() ? "unknown" : name;
 }
 
 /// In which regions each feature is, as the filter asked: where a thing's depth is known, by depth, too.
@@ -119,6 +147,8 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   for (const UsedRegion& region : filter.prior.used())
     record.regions.push_back({region, class_name(region.detection.class_index)});
   detail::locate(record);
+  for (const stillpoint::Mover& mover : result.movers())
+    record.movers.push_back({mover, detail::one_word(mover.class_index < 0 ? "" : class_name(mover.class_index))});
   FrameSummary& summary = record.summary;
   summary.status = result.status();
   summary.warnings = result.warnings();
@@ -126,6 +156,7 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   summary.motion = result.motion();
   summary.timings = result.timings();
   summary.keep_floor_kept = result.keep_floor_kept();
+  if (judged) summary.kept_score = detail::median_kept_score(record.rows);
 }
 
 /// Writes down what the oracle read in the labels: it has no score, no motion, no regions and no stages.
