@@ -22,13 +22,15 @@ namespace stillpoint_run {
 struct InputOptions {
   bool demo = false;
   std::filesystem::path tum, euroc, images;
-  std::filesystem::path right;   ///< the right images of a rectified pair whose left ones are `images`
-  std::string video;             ///< a file, or the number of a camera
-  std::filesystem::path camera;  ///< empty: the sequence's own
-  double frame_rate_hz = 0.0;    ///< 0: the frames tell
+  std::filesystem::path right;  ///< the right images of a rectified pair whose left ones are `images`
+  std::filesystem::path bag;    ///< of ROS 1
+  std::string image_topic, depth_topic, camera_info_topic;  ///< of the bag; empty: the only one that fits
+  std::string video;                                        ///< a file, or the number of a camera
+  std::filesystem::path camera;                             ///< empty: the sequence's own
+  double frame_rate_hz = 0.0;                               ///< 0: the frames tell
 
   bool has_stereo() const { return !euroc.empty() || !right.empty(); }
-  bool has_depth() const { return demo || !tum.empty() || has_stereo(); }
+  bool has_depth() const { return demo || !tum.empty() || !bag.empty() || has_stereo(); }
 
   /// The number of a camera that is connected; empty where `video` is a file.
   std::optional<int> device() const {
@@ -43,6 +45,7 @@ struct InputOptions {
     if (demo) return "--demo";
     if (!tum.empty()) return "--tum " + tum.string();
     if (!euroc.empty()) return "--euroc " + euroc.string();
+    if (!bag.empty()) return "--bag " + bag.string();
     if (!video.empty()) return "--video " + video;
     return "--images " + images.string() + (right.empty() ? "" : " --right " + right.string());
   }
@@ -57,6 +60,10 @@ inline void add_input_options(CLI::App& app, InputOptions& options) {
   app.add_flag("--demo", options.demo, "a synthetic scene, rendered in memory");
   add_path("--tum", "FOLDER", options.tum, "a sequence in the layout of the TUM RGB-D benchmark");
   add_path("--euroc", "FOLDER", options.euroc, "a stereo sequence in the layout of the EuRoC datasets");
+  add_path("--bag", "FILE", options.bag, "a bag of ROS 1 with images, aligned depth and camera_info");
+  add_path("--image-topic", "TOPIC", options.image_topic, "of --bag, where it has more than one");
+  add_path("--depth-topic", "TOPIC", options.depth_topic, "of --bag, where it has more than one");
+  add_path("--camera-info-topic", "TOPIC", options.camera_info_topic, "of --bag, if not the one beside the image's");
   add_path("--images", "FOLDER", options.images, "a folder of images, in the order of their names");
   add_path("--right", "FOLDER", options.right,
            "the right images of a rectified stereo pair, named as the left ones in --images");
@@ -71,7 +78,7 @@ inline void add_input_options(CLI::App& app, InputOptions& options) {
 /// Exactly one source, and nothing that belongs to another.
 inline void require_one_input(const CLI::App& app, const InputOptions& options) {
   const auto given = [&app](const char* name) { return app.count(name) > 0; };
-  constexpr std::array<const char*, 5> kInputs = {"--demo", "--tum", "--euroc", "--images", "--video"};
+  constexpr std::array<const char*, 6> kInputs = {"--demo", "--tum", "--euroc", "--bag", "--images", "--video"};
   const char* found = nullptr;
   for (const char* input : kInputs) {
     if (!given(input)) continue;
@@ -83,10 +90,16 @@ inline void require_one_input(const CLI::App& app, const InputOptions& options) 
     throw stillpoint::Error("--right: found without --images, expected --images with the folder of the left images");
   if (found == nullptr)
     throw stillpoint::Error(
-        "found no sequence, expected --demo or --tum FOLDER, --euroc FOLDER, --images FOLDER or --video FILE|N");
+        "found no sequence, expected --demo or --tum FOLDER, --euroc FOLDER, --bag FILE, --images FOLDER or --video "
+        "FILE|N");
+  for (const char* topic : {"--image-topic", "--depth-topic", "--camera-info-topic"})
+    if (given(topic) && !given("--bag"))
+      throw stillpoint::Error(std::string(topic) + ": found without --bag, expected --bag with a file");
+  if (given("--camera-info-topic") && given("--camera"))
+    throw stillpoint::Error("--camera-info-topic: found with --camera, expected one of them");
   if (given("--camera") && (options.demo || !options.euroc.empty()))
     throw stillpoint::Error("--camera: found with " + std::string(found) +
-                            ", whose camera is known; expected it with --tum, --images or --video");
+                            ", whose camera is known; expected it with --tum, --bag, --images or --video");
   if (given("--fps") && options.images.empty() && options.video.empty())
     throw stillpoint::Error("--fps: found with " + std::string(found) +
                             ", whose frames have their times; expected it with --images or --video");

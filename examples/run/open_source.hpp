@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "bag_source.hpp"
 #include "frame_source.hpp"
 #include "image_sources.hpp"
 #include "options.hpp"
@@ -27,6 +28,8 @@ inline std::unique_ptr<FrameSource> open_source(const Options& options) {
     source = std::make_unique<TumSource>(options);
   else if (!options.euroc.empty())
     source = std::make_unique<EurocSource>(options);
+  else if (!options.bag.empty())
+    source = open_bag(options);
   else if (!options.right.empty())
     source = std::make_unique<StereoFolderSource>(options);
   else if (!options.images.empty())

@@ -67,6 +67,12 @@ TEST(StillpointRunArguments, OneSequenceIsAskedFor) {
   expect_error("--tum ''", {"--tum", "found nothing", "expected a path"});
 }
 
+#ifndef STILLPOINT_RUN_READS_BAGS
+TEST(StillpointRunArguments, ABagNeedsRos) {
+  expect_error("--bag a.bag", {"--bag: found a program that was built without ROS 1", "librosbag-storage-dev"});
+}
+#endif
+
 TEST(StillpointRunArguments, WordsThatAreNotOffered) {
   expect_error("--demo --policies best", {"--policies", "found 'best'", "expected one of default, paper"});
   expect_error("--demo --ego-motion imu", {"--ego-motion", "found 'imu'", "expected one of default, rigid, epipolar"});
