@@ -89,6 +89,8 @@ void run(const Options& options) {
   PictureRoll roll;
   std::optional<VideoFile> video;
   if (!options.save_video.empty()) video.emplace(options.save_video);
+  std::optional<MoversFile> movers;
+  if (!options.no_movers) movers.emplace(options.out / "movers.csv");
 
   std::string yaml;
   nlohmann::ordered_json stages;
@@ -96,7 +98,7 @@ void run(const Options& options) {
     describe(filter, yaml, stages);
     const auto tracker = [&] { return make_tracker(options, source->camera()); };
     return run_frames(options, *source, *detector, std::move(filter), tracker(), tracker(),
-                      RunOutput{features, frames, roll, video ? &*video : nullptr});
+                      RunOutput{features, frames, roll, video ? &*video : nullptr, movers ? &*movers : nullptr});
   });
   const Figures figures = evaluate(record);
   const std::string json = report_json(options, record, figures, stages);
@@ -112,6 +114,7 @@ void run(const Options& options) {
   features.commit();
   frames.commit();
   if (video) video->commit();
+  if (movers) movers->commit();
   if (!yaml.empty()) write_whole(options.out / "options.yaml", yaml);
   write_whole(options.out / "report.json", json);
   write_whole(options.out / "report.html", html);

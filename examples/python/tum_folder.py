@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-"""tum_folder.py FOLDER: ORB corners of an RGB-D recording, in the layout of the TUM benchmark, behind the filter."""
+"""tum_folder.py FOLDER: ORB features of an RGB-D recording, in the layout of the TUM benchmark, behind the filter."""
 
 import pathlib
 import sys
@@ -16,18 +16,14 @@ orb = cv2.ORB_create(1000)
 matcher = cv2.BFMatcher(cv2.NORM_HAMMING, crossCheck=True)
 last = None  # descriptors of the frame before
 
-for row in (folder / "associations.txt").read_text().splitlines():
-    if row.startswith("#"):
-        continue
-    time_s, image_file, _, depth_file = row.split()
+rows = [row.split() for row in (folder / "associations.txt").read_text().splitlines() if not row.startswith("#")]
+for time_s, image_file, _, depth_file in rows:
     image = cv2.imread(str(folder / image_file))
     depth = cv2.imread(str(folder / depth_file), cv2.IMREAD_UNCHANGED)  # uint16
     keypoints, descriptors = orb.detectAndCompute(image, None)
-    # [filter]
     result = frame_filter.filter_frame(image, depth, float(time_s), keypoints, depth_factor)
     descriptors = descriptors[result.keep]
-    keypoints = [keypoint for keypoint, keep in zip(keypoints, result.keep) if keep]
-    # [filter]
     matches = matcher.match(descriptors, last) if last is not None else []
     last = descriptors
-    print(f"{time_s}: {len(keypoints)} of {len(result)} features are static, {len(matches)} matches ({result.status.name}) {result.hint}")
+    print(f"{time_s}: {result.kept_count} of {len(result)} features are static, {len(matches)} matches "
+          f"({result.status.name}) {result.hint}")

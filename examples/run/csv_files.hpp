@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// features.csv and frames.csv: fixed decimals, no locale, the same bytes on every run.
+// features.csv, frames.csv and movers.csv: fixed decimals, no locale, the same bytes on every run.
 
 #include <Eigen/Geometry>
 
@@ -99,6 +99,33 @@ class FramesFile {
     });
     row += '\n';
     file_.write(row);
+  }
+
+  void commit() { file_.commit(); }
+
+ private:
+  stillpoint::AtomicFile file_;
+};
+
+/// One row a mover a frame: place and velocity in the axes of the current camera, the velocity relative to the world;
+/// the class is `unknown` where no detector named it.
+class MoversFile {
+ public:
+  explicit MoversFile(const std::filesystem::path& file) : file_(file) {
+    file_.write("timestamp,id,state,x,y,z,vx,vy,vz,features,class\n");
+  }
+
+  void write(const FrameRecord& record) {
+    constexpr int kDecimals = 4;
+    for (const MoverRow& row : record.movers) {
+      const stillpoint::Mover& mover = row.mover;
+      std::string text = stillpoint::format_timestamp(record.summary.timestamp_s) + ',' + std::to_string(mover.id) +
+                         ',' + to_string(mover.state);
+      for (const stillpoint::Vector3d& vector : {mover.centroid, mover.velocity})
+        for (const double value : {vector.x(), vector.y(), vector.z()})
+          text += ',' + stillpoint::format_fixed(value, kDecimals);
+      file_.write(text + ',' + std::to_string(mover.feature_count) + ',' + row.class_name + '\n');
+    }
   }
 
   void commit() { file_.commit(); }

@@ -84,6 +84,7 @@ constexpr const char* explained(stillpoint::Stage stage) noexcept {
     case Stage::classify: return "features of one surface share their evidence";
     case Stage::memory: return "evidence of earlier frames is added";
     case Stage::verdict: return "keep or drop, and the keep-floor";
+    case Stage::movers: return "dynamic features become objects that are followed";
   }
   return "";
 }

@@ -19,6 +19,7 @@
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/policies.hpp"
+#include "switched_movers.hpp"
 #include "watched_prior.hpp"
 
 namespace stillpoint_run {
@@ -79,6 +80,7 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const F
     filter.ego_motion.kind = motion_kind(options.ego_motion);
     filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;
   }
+  if constexpr (std::is_base_of_v<WithSwitchedMovers, Policies>) filter.movers.is_on = options.has_movers();
   switch_off(options.without, filter);
   return filter;
 }
@@ -103,7 +105,7 @@ decltype(auto) with_filter(const Options& options, const FrameSource& source, Us
   if (options.policies == "default") {
     if (options.ego_motion != "default" || options.without.needs_other_stages())
       return use(detail::default_filter<Watched<SwitchedPolicies>>(options, source));
-    return use(detail::default_filter<Watched<DefaultPolicies>>(options, source));
+    return use(detail::default_filter<Watched<WithSwitchedMovers>>(options, source));
   }
   if (options.policies == "monocular")
     return use(detail::monocular_filter<Watched<stillpoint::MonocularPolicies>>(options, source));

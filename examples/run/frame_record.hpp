@@ -57,9 +57,16 @@ struct RegionRow {
   std::string class_name;
 };
 
+/// An object that the filter follows.
+struct MoverRow {
+  stillpoint::Mover mover;
+  std::string class_name;  ///< one word
+};
+
 /// What the filter said of the current frame, refilled each time.
 struct FrameRecord {
   FrameSummary summary;
+  std::vector<MoverRow> movers;
   std::vector<RegionRow> regions;
   std::vector<FeatureRow> rows;
   std::vector<stillpoint::Vector2f> pixels;
@@ -81,6 +88,7 @@ inline void begin_record(const std::vector<cv::KeyPoint>& keypoints, stillpoint:
   record.pixels.clear();
   for (const cv::KeyPoint& keypoint : keypoints) record.pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
   record.regions.clear();
+  record.movers.clear();
   record.rows.clear();
   for (const stillpoint::Vector2f& pixel : record.pixels)
     record.rows.push_back({pixel, {}, "", stillpoint::FeatureScore{}.value, 0.0, stillpoint::Mobility::unknown});
@@ -95,6 +103,13 @@ inline std::optional<double> median_kept_score(const std::vector<FeatureRow>& ro
     if (row.label.keep && std::isfinite(row.score)) scores.push_back(static_cast<double>(row.score));
   if (scores.empty()) return std::nullopt;
   return stillpoint::error_statistics(scores).median;
+}
+
+/// As boxes.txt has it: a column of a file.
+inline std::string one_word(std::string name) {
+  for (char& c : name)
+    if (c == ' ' || c == ',' || c == '\n') c = '_';
+  return name.empty() ? "unknown" : name;
 }
 
 /// In which regions each feature is, as the filter asked: where a thing's depth is known, by depth, too.
@@ -132,6 +147,8 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   for (const UsedRegion& region : filter.prior.used())
     record.regions.push_back({region, class_name(region.detection.class_index)});
   detail::locate(record);
+  for (const stillpoint::Mover& mover : result.movers())
+    record.movers.push_back({mover, detail::one_word(mover.class_index < 0 ? "" : class_name(mover.class_index))});
   FrameSummary& summary = record.summary;
   summary.status = result.status();
   summary.warnings = result.warnings();

@@ -53,11 +53,17 @@ struct Options : InputOptions {
   int frames = std::numeric_limits<int>::max();
   std::uint64_t seed = stillpoint::Random::kDefaultSeed;
   int threads = 1;
+  bool no_movers = false;
   bool quiet = false;
   std::vector<std::string> given;  ///< the arguments that were there, as --name
 
   bool is_given(std::string_view name) const { return std::find(given.begin(), given.end(), name) != given.end(); }
   bool has_network() const { return prior != "none" && prior != "boxes" && prior != "labels"; }
+  /// Movers are followed by the default stages alone: others have no metres, or no verdicts to follow.
+  bool has_movers() const {
+    return !no_movers && policies == "default" && prior != "labels" && ego_motion == "default" &&
+           !without.needs_other_stages();
+  }
   /// As reports have it: a network by the name of its file.
   std::string prior_name() const { return has_network() ? std::filesystem::path(prior).filename().string() : prior; }
 
@@ -294,6 +300,9 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   add_number("--seed", options.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
              "of the filter's random numbers");
   add_number("--threads", options.threads, 1, 1024, "that OpenCV may use; results do not depend on it");
+  app.add_flag("--no-movers", options.no_movers,
+               "follows no objects and writes no movers.csv; verdicts are the same. The default stages alone follow "
+               "objects: with others the file is empty");
   app.add_flag("--quiet", options.quiet, "no progress on standard error");
 
   try {

@@ -95,7 +95,8 @@ struct RunOutput {
   FeaturesFile& features;
   FramesFile& frames;
   PictureRoll& pictures;
-  VideoFile* video;  ///< null where nobody asked for one
+  VideoFile* video;    ///< null where nobody asked for one
+  MoversFile* movers;  ///< null: not wanted
 };
 
 /// How many frames the options ask for; empty where only the source's end tells.
@@ -169,6 +170,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
 
     output.features.write(record);
     output.frames.write(record.summary);
+    if (output.movers != nullptr) output.movers->write(record);
     output.pictures.add(frame, record, source.camera());
     if (output.video != nullptr) output.video->write(drawing.draw(frame, record, run), record.summary.time_s);
     run.frames.push_back(record.summary);

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/fwd.hpp"
+#include "stillpoint/movers/no_movers.hpp"
 #include "stillpoint/pipeline/frame_check.hpp"
 #include "stillpoint/pipeline/frame_history.hpp"
 #include "stillpoint/pipeline/mask_prediction.hpp"
@@ -55,6 +57,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   typename Policies::Classifier classifier;     ///< what moves together?
   Memory memory;                                ///< what did we know of this feature?
   typename Policies::KeepFloor keep_floor;      ///< how much must be left?
+  MoversOf<Policies> movers;                    ///< which objects move, and how?
   MaskPrediction mask_prediction;               ///< where will the coming frame show what moves?
 
   /// Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time.
@@ -96,6 +99,15 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   /// longer than 100 m, is none (`is_plausible_motion`).
   void expect_motion(const Pose& current_from_reference) { expectation_.expect(current_from_reference); }
 
+  /// Which keypoints of the frame that was filtered last move, by the host's own map: evidence of more views than the
+  /// filter keeps. The memory takes it for the coming frame; one that remembers nothing does not.
+  /// @param is_dynamic  one byte per keypoint, 1: moves. Of another length, or after a frame that was not judged: no
+  ///                    evidence.
+  void expect_dynamic(span<const std::uint8_t> is_dynamic) {
+    if (is_dynamic.size() == result_.keep().size() && judged(result_.status()))
+      stillpoint::expect_dynamic(memory, is_dynamic);
+  }
+
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
   /// that its budget goes to what stands still. Everywhere, where the last frame was not judged or an option is out of
   /// its range. It knows no keep-floor.
@@ -123,6 +135,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     matcher.reset();
     reset_policy(gate);
     memory.reset();
+    movers.reset();
     expectation_ = MotionExpectation();
     mask_prediction.forget();
   }
@@ -182,6 +195,10 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches.current.depth_m);
     });
+    if constexpr (!std::is_same_v<MoversOf<Policies>, NoMovers>)  // which then costs nothing, not even a look at the clock
+      timings.run(Stage::movers, [&] {
+        movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_);
+      });
     result_.warnings_ = motion.warnings;
     if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
     return motion.status;
@@ -211,6 +228,7 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("classifier", filter.classifier);
   visit("memory", filter.memory);
   visit("keep_floor", filter.keep_floor);
+  visit("movers", filter.movers);
   visit("mask_prediction", filter.mask_prediction);
 }
 

@@ -141,13 +141,13 @@ class FrameResult:
         """Values of Reason."""
     @property
     def scores(self) -> npt.NDArray[np.float32]:
-        """Grows with disagreement; NaN where there is none."""
+        """Disagreement with the camera's motion; NaN where the feature was not scored."""
     @property
     def probabilities(self) -> npt.NDArray[np.float32]:
         """That the feature moves, 0 to 1; NaN if unknown."""
     @property
     def weights(self) -> npt.NDArray[np.float32]:
-        """What the feature may say in an estimate, 0 to 1."""
+        """Its weight in an estimate of the pose, 0 to 1."""
     @property
     def clusters(self) -> npt.NDArray[np.int32]:
         """Index of its cluster, -1 for none."""
@@ -290,17 +290,17 @@ class FilterScore:
     @property
     def frames(self) -> int: ...
 
-Trajectory = Union[str, os.PathLike[str], npt.NDArray[np.float64]]
+_Trajectory = Union[str, os.PathLike[str], npt.NDArray[np.float64]]
 
 def read_camera(file: Union[str, os.PathLike[str]]) -> Tuple[Camera, float]:
     """Reads a camera.yaml (docs/your_camera.md): the camera, and what a 16-bit depth image counts per metre."""
 
-def ate(reference: Trajectory, estimate: Trajectory, alignment: str = "se3",
+def ate(reference: _Trajectory, estimate: _Trajectory, alignment: str = "se3",
         max_time_difference_s: float = 0.01) -> TrajectoryError:
     """Absolute trajectory error, as evo's ape. Trajectories are files or arrays (N, 8) of timestamp tx ty tz qx qy qz qw,
     world_from_camera. alignment is se3, sim3 or none."""
 
-def rpe(reference: Trajectory, estimate: Trajectory, delta: float = 1.0, unit: str = "frames", pairs: str = "consecutive",
+def rpe(reference: _Trajectory, estimate: _Trajectory, delta: float = 1.0, unit: str = "frames", pairs: str = "consecutive",
         max_time_difference_s: float = 0.01) -> TrajectoryError:
     """Relative trajectory error, as evo's rpe. delta is in unit, frames or metres; pairs are consecutive or all."""
 

@@ -34,6 +34,9 @@ allowed() {
     prior | match | score | gate | cluster | memory | verdict)
       rule='a stage includes core/, depth/, pipeline/, its own folder and OpenCV (opencv.hpp), never another stage'
       printf '%s\n' "$std" "$eigen" "$opencv" "$core" "$depth" "$pipeline" "$bridge" "$own" ;;
+    movers) rule='movers/ includes core/, depth/, pipeline/, its own folder, K-means, and how rigid motions are estimated'
+      printf '%s\n' "$std" "$eigen" "$core" "$depth" "$pipeline" "$own" '"stillpoint/cluster/k_means.hpp"' \
+        '"stillpoint/motion/rigid/rigid_estimator.hpp"' ;;
     evaluation | stereo | synthetic) rule="$folder/ includes core/, depth/, its own folder and OpenCV"
       printf '%s\n' "$std" "$eigen" "$opencv" "$core" "$depth" "$bridge" "$own" ;;
     io) rule='io/ includes core/, evaluation/ (trajectories), its own folder, OpenCV and yaml-cpp'
@@ -58,14 +61,14 @@ allowed() {
       printf '%s\n' "$std" "$core" "$depth" "${stages[@]}" '"stillpoint/+([a-z_0-9]).hpp"' '"stillpoint/policies/*"' ;;
     filtered_tracker.hpp) rule='filtered_tracker.hpp includes core/, depth/, pipeline/ and verdict/ (what a host takes)'
       printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/verdict/*"' ;;
-    *.hpp) rule='a header beside filter_frame.hpp includes core/, depth/, pipeline/ and headers of that folder'
-      printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' '"stillpoint/fwd.hpp"' \
+    *.hpp) rule='a header beside filter_frame.hpp includes core/, depth/, pipeline/, the null movers and headers of that folder'
+      printf '%s\n' "$std" "$core" "$depth" "$pipeline" '"stillpoint/movers/no_movers.hpp"' '"stillpoint/filter_frame.hpp"' '"stillpoint/policies.hpp"' '"stillpoint/fwd.hpp"' \
         "$bridge" ;;
     *) rule="the folder $folder/ is not known to tests/structure/include_rules.sh: say there what it may include" ;;
   esac
 }
 stages=()
-for stage in prior match motion score gate cluster memory verdict; do stages+=("\"stillpoint/$stage/*\""); done
+for stage in prior match motion score gate cluster memory verdict movers; do stages+=("\"stillpoint/$stage/*\""); done
 
 offences=0
 offence() {

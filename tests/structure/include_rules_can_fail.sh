@@ -15,6 +15,7 @@ header() {
   [[ -z $3 ]] || printf 'include/stillpoint/%s:2: %s\n' "$1" "$3" >> expected
 }
 : > expected
+header movers/a.hpp '"stillpoint/cluster/k_means.hpp"' '"stillpoint/motion/kabsch.hpp"'
 header core/a.hpp '<Eigen/Core>' '<opencv2/core.hpp>'
 header core/b.hpp '<cstdint>' '"stillpoint/prior/box_prior.hpp"'
 header core/c.hpp '<vector>' '<Eigen/Dense>'

@@ -28,6 +28,7 @@ using Json = nlohmann::json;
 
 const std::vector<std::string> kFiles = {"features.csv",
                                          "frames.csv",
+                                         "movers.csv",
                                          "options.yaml",
                                          "report.html",
                                          "report.json",
@@ -137,7 +138,7 @@ void expect_report(const Json& report, int frame_count) {
   int statuses = 0;
   for (const auto& [status, count] : report["statuses"].items()) statuses += count.get<int>();
   EXPECT_EQ(statuses, frame_count);
-  for (const char* stage : {"prior", "match", "motion", "score", "gate", "classify", "memory", "verdict"}) {
+  for (const char* stage : {"prior", "match", "motion", "score", "gate", "classify", "memory", "verdict", "movers"}) {
     ASSERT_TRUE(report["timing_ms"].contains(stage)) << stage;
     for (const char* key : {"median", "p95", "max"}) expect_null_or_number(report["timing_ms"][stage], key);
   }
@@ -229,8 +230,28 @@ TEST_F(Demo, IsTheSameBytesTwice) {
       run_program("--demo --quiet --threads 2 --frames " + std::to_string(kFrames) + " --out " + quoted(other / "out"));
   ASSERT_EQ(outcome.status, 0) << outcome.error;
   EXPECT_EQ(outcome.error, "") << "quiet";
-  for (const char* name : {"features.csv", "frames.csv", "trajectory.txt", "trajectory_unfiltered.txt"})
+  for (const char* name : {"features.csv", "frames.csv", "movers.csv", "trajectory.txt", "trajectory_unfiltered.txt"})
     EXPECT_EQ(read_text(out() / name), read_text(other / "out" / name)) << name;
+}
+
+TEST_F(Demo, WritesWhereMoversAreUnlessToldNotTo) {
+  const auto rows = read_csv(out() / "movers.csv");
+  ASSERT_GT(rows.size(), 1u) << "who walks is found within 8 frames";
+  EXPECT_EQ(rows[0], split("timestamp,id,state,x,y,z,vx,vy,vz,features,class", ','));
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 11u) << "row " << i;
+    EXPECT_GE(std::stoi(rows[i][1]), 1);
+    EXPECT_TRUE(rows[i][2] == "moving" || rows[i][2] == "parked" || rows[i][2] == "lost") << rows[i][2];
+    EXPECT_TRUE(std::stod(rows[i][5]) > 0.5 && std::stod(rows[i][5]) < 4) << rows[i][5];
+    EXPECT_EQ(rows[i][10], "unknown") << "no detector";
+  }
+  const TemporaryFolder other;
+  ASSERT_EQ(run_program("--demo --quiet --no-movers --frames " + std::to_string(kFrames) + " --out " +
+                        quoted(other / "out"))
+                .status,
+            0);
+  EXPECT_FALSE(fs::exists(other / "out" / "movers.csv"));
+  EXPECT_EQ(read_text(other / "out" / "features.csv"), read_text(out() / "features.csv")) << "verdicts are the same";
 }
 
 TEST(DemoChoices, OracleDropsAllThatMoves) {

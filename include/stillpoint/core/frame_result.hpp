@@ -12,6 +12,7 @@
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/mover.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/timings.hpp"
@@ -44,6 +45,26 @@ class FrameResult {
   /// How many dynamic features the keep-floor kept.
   std::size_t keep_floor_kept() const noexcept { return keep_floor_kept_; }
 
+  /// The objects that move, or moved and are parked, in the order of their identifiers; empty without a stage for them
+  /// (policies/with_movers.hpp) and where the frame was not judged.
+  span<const Mover> movers() const noexcept { return movers_.list; }
+  /// The mover that keypoint `i` belongs to; null where it belongs to none.
+  const Mover* mover(std::size_t i) const noexcept {
+    const std::int32_t index = movers_.of_feature[i];
+    return index == Movers::kNone ? nullptr : &movers_.list[static_cast<std::size_t>(index)];
+  }
+  /// Indices of the keypoints of a mover of this result.
+  span<const std::uint32_t> features(const Mover& mover) const noexcept {
+    return {movers_.feature.data() + mover.first_feature, mover.feature_count};
+  }
+  /// Paints a mask of the image's size: 255 keeps, 0 within `radius_px` of the features of a mover of this result and of
+  /// the filter's own corners on it.
+  void mask(const Mover& mover, ImageBuffer& mask, int radius_px = 12) const {
+    keep_everywhere(width_, height_, mask);
+    for (std::size_t k = mover.first_pixel; k < mover.first_pixel + mover.pixel_count; ++k)
+      drop_disc(movers_.pixel[k], radius_px, mask);
+  }
+
   /// Paints a mask of the image's size: 255 keeps, 0 within `radius_px` of a dropped feature.
   /// The buffer is reused when it has that size already.
   void mask(ImageBuffer& mask, int radius_px = 12) const {
@@ -71,6 +92,7 @@ class FrameResult {
     warnings_ = Warnings();
     hint_ = "";
     motion_ = Motion{};
+    movers_.begin(pixels.size());
     timings_ = Timings{};
   }
 
@@ -99,6 +121,7 @@ class FrameResult {
   Warnings warnings_;
   const char* hint_ = "";
   Motion motion_;
+  Movers movers_;
   Timings timings_;
 };
 

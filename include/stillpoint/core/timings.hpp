@@ -13,12 +13,12 @@
 
 namespace stillpoint {
 
-enum class Stage : std::uint8_t { prior, match, motion, score, gate, classify, memory, verdict };
-inline constexpr std::size_t kStageCount = 8;
+enum class Stage : std::uint8_t { prior, match, motion, score, gate, classify, memory, verdict, movers };
+inline constexpr std::size_t kStageCount = 9;
 
 constexpr const char* to_string(Stage stage) noexcept {
-  constexpr const char* kNames[kStageCount] = {"prior", "match",    "motion", "score",
-                                               "gate",  "classify", "memory", "verdict"};
+  constexpr const char* kNames[kStageCount] = {"prior",    "match",  "motion",  "score", "gate",
+                                               "classify", "memory", "verdict", "movers"};
   return kNames[static_cast<std::size_t>(stage)];
 }
 

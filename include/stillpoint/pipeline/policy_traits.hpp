@@ -12,6 +12,7 @@
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/mover.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -69,6 +70,12 @@ template <class P> struct is_keep_floor<P, std::enable_if_t<detail::returns<std:
     std::declval<span<const Vector2f>>(), std::declval<const ImageView&>(), std::declval<span<Label>>(),
     std::declval<Workspace&>()))>>> : std::true_type {};
 
+template <class P, class Camera, class = void> struct is_movers : std::false_type {};
+template <class P, class Camera> struct is_movers<P, Camera, std::void_t<decltype(std::declval<P&>().track(
+    std::declval<const FrameView&>(), std::declval<const Observations&>(), std::declval<const Motion&>(),
+    std::declval<const Camera&>(), std::declval<span<const Label>>(), std::declval<Movers&>(),
+    std::declval<Workspace&>())), decltype(std::declval<P&>().reset())>> : std::true_type {};
+
 template <class P, class = void> struct is_depth_noise : std::false_type {};
 template <class P> struct is_depth_noise<P, std::enable_if_t<detail::returns<double, decltype(
     std::declval<const P&>().sigma(1.0))>>> : std::true_type {};
@@ -92,6 +99,25 @@ template <class Policies> struct has_history_length<Policies, std::enable_if_t<
     std::is_integral_v<decltype(Policies::kHistoryLength)> && (Policies::kHistoryLength > 0)>> : std::true_type {};
 
 // clang-format on
+
+struct NoMovers;  // movers/no_movers.hpp
+
+namespace detail {
+
+template <class Policies, class = void>
+struct NamedMovers {
+  using type = NoMovers;
+};
+template <class Policies>
+struct NamedMovers<Policies, std::void_t<typename Policies::Movers>> {
+  using type = typename Policies::Movers;
+};
+
+}  // namespace detail
+
+/// The stage that a set has for movers: `NoMovers` where it names none.
+template <class Policies>
+using MoversOf = typename detail::NamedMovers<Policies>::type;
 
 /// Instantiated by `FrameFilter`: one readable error for each stage that does not keep its contract.
 template <class Policies>
@@ -141,6 +167,10 @@ struct PolicyContract {
       is_keep_floor<typename Policies::KeepFloor>::value,
       "stillpoint: Policies::KeepFloor must offer std::size_t apply(span<const Vector2f> pixels, const ImageView&, "
       "span<Label>, Workspace&); see verdict/keep_floor.hpp");
+  static_assert(is_movers<MoversOf<Policies>, Camera>::value,
+                "stillpoint: Policies::Movers must offer void track(const FrameView&, const Observations&, const "
+                "Motion&, const Camera&, span<const Label>, Movers&, Workspace&) and void reset(); see "
+                "movers/no_movers.hpp");
   static_assert(has_history_length<Policies>::value,
                 "stillpoint: Policies must have static constexpr std::size_t kHistoryLength, 1 or more; see "
                 "policies.hpp");

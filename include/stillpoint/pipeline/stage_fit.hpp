@@ -10,6 +10,7 @@
 
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/pipeline/optional_stages.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
 
 namespace stillpoint {
 
@@ -38,6 +39,7 @@ STILLPOINT_HAS_NAME(reproject_into_past);
 STILLPOINT_HAS_NAME(refine);
 STILLPOINT_HAS_NAME(recall);
 STILLPOINT_HAS_NAME(learn);
+STILLPOINT_HAS_NAME(expect_dynamic);
 STILLPOINT_HAS_NAME(observe);
 STILLPOINT_HAS_NAME(survey);
 STILLPOINT_HAS_NAME(look_back);
@@ -152,6 +154,9 @@ struct OptionalMembers {
   static_assert(recalls<typename Policies::Memory>::value || !detail::has_recall<typename Policies::Memory>::value,
       "stillpoint: Policies::Memory has a member recall, but not void recall(const Matches&, Remembered&, Workspace&); see "
       "docs/extending.md");
+  static_assert(expects_dynamic<typename Policies::Memory>::value || !detail::has_expect_dynamic<typename Policies::Memory>::value,
+      "stillpoint: Policies::Memory has a member expect_dynamic, but not void expect_dynamic(span<const std::uint8_t>); see "
+      "docs/extending.md");
   static_assert(observes<typename Policies::Prior, Camera>::value || !detail::has_observe<typename Policies::Prior>::value,
       "stillpoint: Policies::Prior has a member observe, but not void observe(const Observations&, const Motion&, const "
       "Camera&); see docs/extending.md");
@@ -169,11 +174,14 @@ using NeedsOf = NeedList<
     Need<typename P::EgoMotion, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::Scorer, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::Classifier, typename P::DepthLookup, capability::metric_depth>,
+    Need<MoversOf<P>, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::EgoMotion, typename P::Matcher, capability::matches>,
+    Need<MoversOf<P>, typename P::Matcher, capability::matches>,
     Need<typename P::Scorer, typename P::Matcher, capability::feature_matches>,
     Need<typename P::Scorer, typename P::Matcher, capability::past_observations>,
     Need<typename P::Classifier, typename P::Matcher, capability::feature_matches>,
     Need<typename P::Scorer, typename P::EgoMotion, capability::metric_motion>,
+    Need<MoversOf<P>, typename P::EgoMotion, capability::metric_motion>,
     Need<typename P::Gate, typename P::Scorer, capability::log_likelihoods>,
     Need<typename P::Classifier, typename P::Scorer, capability::log_likelihoods>,
     Need<typename P::Classifier, typename P::Gate, capability::tail_threshold>,

@@ -14,6 +14,7 @@
 #include "stillpoint/match/patch_matcher.hpp"
 #include "stillpoint/memory/evidence_memory.hpp"
 #include "stillpoint/motion/rigid/support_motion.hpp"
+#include "stillpoint/movers/no_movers.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/score/reprojection_score.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
@@ -34,6 +35,7 @@ struct DefaultPolicies {
   using Classifier = SurfaceClusters;
   using Memory = EvidenceMemory;
   using KeepFloor = stillpoint::KeepFloor;
+  using Movers = NoMovers;
   static constexpr std::size_t kHistoryLength = 16;  ///< half a second at 30 Hz, 15 MB in 640 × 480
 };
 

@@ -113,6 +113,19 @@ inline Scene walking_people(const SceneOptions& options = {}) {
   return scene;
 }
 
+/// Two people pass each other before a stationary camera, 0.7 m apart, each at 0.8 m/s.
+inline Scene crossing_people(const SceneOptions& options = {}) {
+  constexpr double kQuarter_rad = 1.5707963, kSpeed_m_s = 0.8;
+  Scene scene = detail::stage("crossing_people", options);
+  scene.camera_path = detail::stationary_camera_path();
+  const auto across = [](double z_m, double side) {
+    return PathBuilder({-side, 0, z_m}, side * kQuarter_rad).slide_to({side, 0, z_m}, kSpeed_m_s).path(Blend::linear);
+  };
+  scene.movers.push_back(walking_person(across(1.2, 1.0), options.seed + 10));
+  scene.movers.push_back(walking_person(across(1.9, -1.0), options.seed + 13));
+  return scene;
+}
+
 /// A box that no detector knows is slid over the floor and turned, with pauses.
 inline Scene pushed_box(const SceneOptions& options = {}) {
   Scene scene = detail::stage("pushed_box", options);

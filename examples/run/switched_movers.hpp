@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Movers that can be switched off when the program runs: one filter to compile in place of two.
+
+#include "stillpoint/core/capabilities.hpp"
+#include "stillpoint/movers/mover_tracking.hpp"
+#include "stillpoint/policies/default_policies.hpp"
+
+namespace stillpoint_run {
+
+/// Its options are in no file: a host's filter without movers reads what this program wrote.
+struct SwitchedMovers {
+  using Needs = stillpoint::MoverTracking::Needs;
+
+  stillpoint::MoverTracking tracking;
+  bool is_on = true;
+
+  template <class Camera>
+  void track(const stillpoint::FrameView& frame, const stillpoint::Observations& observations,
+             const stillpoint::Motion& motion, const Camera& camera, stillpoint::span<const stillpoint::Label> labels,
+             stillpoint::Movers& result, stillpoint::Workspace& workspace) {
+    if (is_on) tracking.track(frame, observations, motion, camera, labels, result, workspace);
+  }
+  void reset() { tracking.reset(); }
+};
+
+struct WithSwitchedMovers : stillpoint::DefaultPolicies {
+  using Movers = SwitchedMovers;
+};
+
+}  // namespace stillpoint_run

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Which dynamic features belong to one object?   Motions are peeled off one by one: K-means gives pieces of surface
+// (the paper, Eq. 11 and 12), each piece proposes its motion, the one that explains most takes its connected pieces.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "stillpoint/cluster/k_means.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/movers/moving_features.hpp"
+#include "stillpoint/movers/object_motion.hpp"
+
+namespace stillpoint {
+
+/// Dynamic features as points: parallel arrays, in the workspace.
+struct DynamicPoints {
+  span<std::uint32_t> feature;  ///< index into `Matches`
+  span<WhitenedPair> pair;      ///< `current` always; the rest where `has_step`
+  span<std::uint8_t> has_step;  ///< it was found in the reference frame, with a depth there
+  std::size_t size = 0;
+
+  DynamicPoints() = default;
+  DynamicPoints(std::size_t most, Workspace& workspace)
+      : feature(workspace.take<std::uint32_t>(most)),
+        pair(workspace.take<WhitenedPair>(most)),
+        has_step(workspace.take<std::uint8_t>(most)) {}
+
+  template <class Camera>
+  void add(std::size_t i, const MovingFeatures<Camera>& features) {
+    feature[size] = static_cast<std::uint32_t>(i);
+    has_step[size] = features.matches.metric(i);
+    if (has_step[size] != 0)
+      pair[size] = features.pair(i);
+    else
+      pair[size].current = features.matches.current.point[i];
+    ++size;
+  }
+
+  const Vector3d& point(std::size_t k) const noexcept { return pair[k].current; }
+  Vector3d step(std::size_t k) const { return pair[k].current - pair[k].reference; }
+};
+
+/// Peels groups of one motion off a set of points.
+class MotionGroups {
+ public:
+  static constexpr std::int32_t kNone = -1;
+  static constexpr double kReach_m = 0.18;      // between neighbouring features of one object
+  static constexpr double kSlack_m_s = 0.25;    // limbs and turns differ so much from their object's translation
+
+  span<std::int32_t> of_point;  ///< group of each point, 0 to `count` - 1, or `kNone`
+  std::size_t count = 0;
+
+  /// @param elapsed_s  between the two frames
+  MotionGroups(const DynamicPoints& points, double elapsed_s, Workspace& workspace)
+      : of_point(workspace.take<std::int32_t>(points.size, kNone)), points_(points), slack_m_(kSlack_m_s * elapsed_s) {
+    if (points.size == 0) return;
+    const Workspace::Scope scope(workspace);
+    make_pieces(workspace);
+    while (peel(workspace)) ++count;
+    join_limbs(workspace);
+  }
+
+ private:
+  static constexpr std::size_t kPointsPerPiece = 10, kFewestSteps = 3;
+  static constexpr int kIterations = 3;
+  static constexpr double kFewestSupport = 3.0;
+  static constexpr double kLimb = 0.5;  // share of its neighbour's points below which a group is a part of it
+
+  void make_pieces(Workspace& workspace) {
+    PointArrays arrays(points_.size, workspace);
+    for (std::size_t k = 0; k < points_.size; ++k) arrays.set(k, points_.point(k));
+    const std::size_t wanted = std::max<std::size_t>(1, points_.size / kPointsPerPiece);
+    Random random;
+    const KMeansResult clusters =
+        lloyd(arrays, k_means_plus_plus(arrays, wanted, random, workspace), kIterations, workspace);
+    pieces_ = wanted;
+    begin_ = workspace.take<std::size_t>(pieces_ + 1);
+    member_ = workspace.take<std::uint32_t>(points_.size);
+    centre_ = clusters.centre;
+    radius_ = workspace.take<float>(pieces_);
+    group_ = workspace.take<std::int32_t>(pieces_, kNone);
+    for (std::size_t c = 0; c < pieces_; ++c) begin_[c + 1] = begin_[c] + clusters.member_count[c];
+    const span<std::size_t> next = workspace.take<std::size_t>(pieces_);
+    std::copy_n(begin_.begin(), pieces_, next.begin());
+    for (std::size_t k = 0; k < points_.size; ++k) {
+      const auto c = static_cast<std::size_t>(clusters.cluster[k]);
+      member_[next[c]++] = static_cast<std::uint32_t>(k);
+      radius_[c] = std::max(radius_[c], (arrays[k] - centre_[c]).norm());
+    }
+  }
+
+  span<const std::uint32_t> members(std::size_t piece) const {
+    return {member_.data() + begin_[piece], begin_[piece + 1] - begin_[piece]};
+  }
+
+  bool adjacent(std::size_t a, std::size_t b) const {
+    const auto reach_m = static_cast<float>(kReach_m);
+    if ((centre_[a] - centre_[b]).norm() > radius_[a] + radius_[b] + reach_m) return false;
+    for (const std::uint32_t i : members(a))
+      for (const std::uint32_t j : members(b))
+        if ((points_.point(i) - points_.point(j)).squaredNorm() <= kReach_m * kReach_m) return true;
+    return false;
+  }
+
+  /// 1 for a step that is `translation` exactly, 0 for one that is not.
+  float support(std::size_t k, const Vector3d& translation) const {
+    Pose moved = Pose::Identity();
+    moved.translation() = translation;
+    const double whitened = squared_distance(points_.pair[k], moved) / ObjectMotionEstimator::kInlier_sq;
+    const double slack = (points_.step(k) - translation).squaredNorm() / (slack_m_ * slack_m_);
+    return static_cast<float>(std::max(0.0, 1.0 - std::min(whitened, slack)));
+  }
+
+  struct Vote {
+    float support = 0;
+    std::size_t steps = 0;
+  };
+  Vote vote(std::size_t piece, const Vector3d& translation) const {
+    Vote result;
+    for (const std::uint32_t k : members(piece)) {
+      if (points_.has_step[k] == 0) continue;
+      ++result.steps;
+      result.support += support(k, translation);
+    }
+    return result;
+  }
+
+  bool median_step(span<const std::uint8_t> chosen, Workspace& workspace, Vector3d& step) const {
+    const Workspace::Scope scope(workspace);
+    const span<double> values = workspace.take<double>(points_.size);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::size_t steps = 0;
+      for (std::size_t piece = 0; piece < pieces_; ++piece)
+        if (chosen[piece] != 0)
+          for (const std::uint32_t k : members(piece))
+            if (points_.has_step[k] != 0) values[steps++] = points_.step(k)(axis);
+      if (steps < kFewestSteps) return false;
+      step(axis) = median_in_place(values.first(steps));
+    }
+    return true;
+  }
+
+  /// Pieces that hang together with `seed` and mostly move by `translation`; what has no step goes with its neighbour.
+  float grow(std::size_t seed, const Vector3d& translation, span<std::uint8_t> chosen, span<std::uint32_t> queue) const {
+    std::fill(chosen.begin(), chosen.end(), std::uint8_t{0});
+    float total = vote(seed, translation).support;
+    std::size_t head = 0, tail = 0;
+    queue[tail++] = static_cast<std::uint32_t>(seed);
+    chosen[seed] = 1;
+    while (head < tail) {
+      const std::size_t from = queue[head++];
+      for (std::size_t other = 0; other < pieces_; ++other) {
+        if (chosen[other] != 0 || group_[other] != kNone) continue;
+        const Vote votes = vote(other, translation);
+        if (votes.steps > 0 && 2 * votes.support < static_cast<float>(votes.steps)) continue;
+        if (!adjacent(from, other)) continue;
+        chosen[other] = 1;
+        queue[tail++] = static_cast<std::uint32_t>(other);
+        total += votes.support;
+      }
+    }
+    return total;
+  }
+
+  bool peel(Workspace& workspace) {
+    const Workspace::Scope scope(workspace);
+    const span<std::uint8_t> chosen = workspace.take<std::uint8_t>(pieces_), best = workspace.take<std::uint8_t>(pieces_);
+    const span<std::uint32_t> queue = workspace.take<std::uint32_t>(pieces_);
+    float most = static_cast<float>(kFewestSupport);
+    bool found = false;
+    for (std::size_t seed = 0; seed < pieces_; ++seed) {
+      if (group_[seed] != kNone) continue;
+      std::fill(chosen.begin(), chosen.end(), std::uint8_t{0});
+      chosen[seed] = 1;
+      Vector3d step;
+      if (!median_step(chosen, workspace, step)) continue;
+      float total = grow(seed, step, chosen, queue);
+      if (median_step(chosen, workspace, step)) total = grow(seed, step, chosen, queue);
+      if (!(total > most)) continue;
+      most = total;
+      found = true;
+      std::copy(chosen.begin(), chosen.end(), best.begin());
+    }
+    if (!found) return false;
+    for (std::size_t piece = 0; piece < pieces_; ++piece) {
+      if (best[piece] == 0) continue;
+      group_[piece] = static_cast<std::int32_t>(count);
+      for (const std::uint32_t k : members(piece)) of_point[k] = group_[piece];
+    }
+    return true;
+  }
+
+  /// What hangs on a larger group and has less than half of its points is a limb of it, as are pieces of no group.
+  void join_limbs(Workspace& workspace) {
+    if (count == 0) return;
+    const span<std::size_t> size = workspace.take<std::size_t>(count);
+    for (std::size_t piece = 0; piece < pieces_; ++piece)
+      if (group_[piece] != kNone) size[static_cast<std::size_t>(group_[piece])] += members(piece).size();
+    const span<std::int32_t> into = workspace.take<std::int32_t>(count + pieces_, kNone);
+    for (std::size_t a = 0; a < pieces_; ++a) {
+      for (std::size_t b = 0; b < pieces_; ++b) {
+        if (group_[b] == kNone || group_[a] == group_[b]) continue;
+        const auto to = static_cast<std::size_t>(group_[b]);
+        const std::size_t own = group_[a] == kNone ? members(a).size() : size[static_cast<std::size_t>(group_[a])];
+        if (!(static_cast<double>(own) < kLimb * static_cast<double>(size[to])) || !adjacent(a, b)) continue;
+        std::int32_t& target = into[group_[a] == kNone ? count + a : static_cast<std::size_t>(group_[a])];
+        if (target == kNone || size[to] > size[static_cast<std::size_t>(target)]) target = group_[b];
+      }
+    }
+    for (std::size_t piece = 0; piece < pieces_; ++piece) {
+      std::int32_t group = group_[piece];
+      if (group == kNone) group = into[count + piece];
+      while (group != kNone && into[static_cast<std::size_t>(group)] != kNone)  // towards ever larger groups
+        group = into[static_cast<std::size_t>(group)];
+      for (const std::uint32_t k : members(piece)) of_point[k] = group;
+    }
+  }
+
+  const DynamicPoints& points_;
+  double slack_m_;
+  std::size_t pieces_ = 0;
+  span<std::size_t> begin_;
+  span<std::uint32_t> member_;
+  span<Eigen::Vector3f> centre_;
+  span<float> radius_;
+  span<std::int32_t> group_;
+};
+
+}  // namespace stillpoint

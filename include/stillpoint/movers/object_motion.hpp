@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// How did one object move?   Its points in two frames → a rigid motion, or a translation where they do not determine a
+// rotation.
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/small_linear_algebra.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/motion/rigid/rigid_estimator.hpp"
+
+namespace stillpoint {
+
+/// An object's motion between two frames, the camera's own taken out: maps where its points would be had it stood still
+/// to where they are. Metres, in the current camera.
+struct ObjectMotion {
+  Pose moved = Pose::Identity();
+  Matrix6d covariance = Matrix6d::Zero();  ///< of a rotation and translation after `moved`
+  bool has_rotation = false;
+  double inlier_share = 0;  ///< of the pairs, those within three standard deviations
+  std::size_t count = 0;    ///< of pairs
+};
+
+/// Squared whitened distance of a pair from a motion.
+inline double squared_distance(const WhitenedPair& pair, const Pose& moved) {
+  const Vector3d offset = pair.current - moved * pair.reference;
+  const double z = pair.per_z * offset.z(), x = pair.per_x * (offset.x() - pair.u * offset.z()),
+               y = pair.per_y * (offset.y() - pair.v * offset.z());
+  return x * x + y * y + z * z;
+}
+
+/// Gauss-Newton for a translation alone, with Cauchy's weights as `RigidNormalEquations`.
+class TranslationNormalEquations {
+ public:
+  void add(const WhitenedPair& pair, const Pose& moved) {
+    const Vector3d offset = pair.current - moved * pair.reference;
+    Matrix3d rows;
+    rows << 0, 0, pair.per_z,                 //
+        pair.per_x, 0, -pair.per_x * pair.u,  //
+        0, pair.per_y, -pair.per_y * pair.v;
+    const Vector3d residual = rows * offset;
+    constexpr double kCauchy = RigidNormalEquations::kCauchy;
+    const double weight = 1.0 / (1.0 + residual.squaredNorm() / (kCauchy * kCauchy));
+    information_.noalias() += weight * rows.transpose() * rows;
+    right_.noalias() += weight * rows.transpose() * residual;
+  }
+
+  Cholesky<3> factors() const { return Cholesky<3>(information_); }
+  Vector3d step() const { return factors().solve(right_); }
+
+ private:
+  Matrix3d information_ = Matrix3d::Zero();
+  Vector3d right_ = Vector3d::Zero();
+};
+
+/// Estimates from the middle of the steps, so that half of the pairs may be of something else.
+class ObjectMotionEstimator {
+ public:
+  static constexpr std::size_t kFewestPairs = 3, kFewestForRotation = 8;
+  static constexpr double kInlier_sq = 9.0;
+  static constexpr double kMostRotationSigma = 0.02;  // rad about the least certain axis between two frames
+
+  /// The translation that most pairs agree with; nothing with fewer than three.
+  static std::optional<ObjectMotion> translation(span<const WhitenedPair> pairs, Workspace& workspace) {
+    if (pairs.size() < kFewestPairs) return std::nullopt;
+    ObjectMotion motion;
+    motion.count = pairs.size();
+    motion.moved.translation() = median_step(pairs, workspace);
+    TranslationNormalEquations last;
+    for (int iteration = 0; iteration < kSteps; ++iteration) {
+      last = TranslationNormalEquations();
+      for (const WhitenedPair& pair : pairs) last.add(pair, motion.moved);
+      const Vector3d step = last.step();
+      if (!step.allFinite()) return std::nullopt;
+      motion.moved.translation() += step;
+    }
+    motion.covariance.bottomRightCorner<3, 3>() = last.factors().inverse();
+    motion.inlier_share = inlier_share(pairs, motion.moved);
+    return motion;
+  }
+
+  /// The rigid motion near `start`; nothing where the pairs do not determine one.
+  static std::optional<ObjectMotion> rigid(span<const WhitenedPair> pairs, const Pose& start) {
+    if (pairs.size() < kFewestForRotation) return std::nullopt;
+    ObjectMotion motion;
+    motion.count = pairs.size();
+    motion.moved = start;
+    for (int iteration = 0; iteration < kSteps; ++iteration) {
+      RigidNormalEquations equations(motion.moved);
+      for (const WhitenedPair& pair : pairs) equations.add(pair);
+      const std::optional<Pose> next = equations.step();
+      if (!next) return std::nullopt;
+      motion.moved = *next;
+    }
+    RigidNormalEquations equations(motion.moved);
+    for (const WhitenedPair& pair : pairs) equations.add(pair);
+    const std::optional<Matrix6d> covariance = equations.covariance();
+    if (!covariance || !(covariance->topLeftCorner<3, 3>().trace() <= kMostRotationSigma * kMostRotationSigma))
+      return std::nullopt;
+    motion.covariance = *covariance;
+    motion.has_rotation = true;
+    motion.inlier_share = inlier_share(pairs, motion.moved);
+    return motion;
+  }
+
+ private:
+  static constexpr int kSteps = 4;
+
+  static double inlier_share(span<const WhitenedPair> pairs, const Pose& moved) {
+    std::size_t inliers = 0;
+    for (const WhitenedPair& pair : pairs) inliers += squared_distance(pair, moved) <= kInlier_sq;
+    return static_cast<double>(inliers) / static_cast<double>(pairs.size());
+  }
+
+  static Vector3d median_step(span<const WhitenedPair> pairs, Workspace& workspace) {
+    const Workspace::Scope scope(workspace);
+    const span<double> values = workspace.take<double>(pairs.size());
+    Vector3d median;
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t k = 0; k < pairs.size(); ++k) values[k] = pairs[k].current(axis) - pairs[k].reference(axis);
+      median(axis) = median_in_place(values);
+    }
+    return median;
+  }
+};
+
+}  // namespace stillpoint

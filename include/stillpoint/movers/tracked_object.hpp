@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// One object as it is remembered from frame to frame.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/mover.hpp"
+#include "stillpoint/movers/appearance.hpp"
+#include "stillpoint/movers/constant_velocity.hpp"
+
+namespace stillpoint {
+
+/// Points on an object's surface, metres. No heap.
+class ObjectPoints {
+ public:
+  static constexpr std::size_t kMost = 320;
+
+  std::size_t size() const noexcept { return size_; }
+  bool empty() const noexcept { return size_ == 0; }
+  bool full() const noexcept { return size_ == kMost; }
+  Vector3d& operator[](std::size_t k) noexcept { return points_[k]; }
+  const Vector3d& operator[](std::size_t k) const noexcept { return points_[k]; }
+  Vector3d* begin() noexcept { return points_.data(); }
+  Vector3d* end() noexcept { return points_.data() + size_; }
+  const Vector3d* begin() const noexcept { return points_.data(); }
+  const Vector3d* end() const noexcept { return points_.data() + size_; }
+
+  /// Nothing happens where it is full.
+  void add(const Vector3d& point) noexcept {
+    if (!full()) points_[size_++] = point;
+  }
+  void shrink(std::size_t size) noexcept { size_ = std::min(size, size_); }
+
+ private:
+  std::array<Vector3d, kMost> points_;
+  std::size_t size_ = 0;
+};
+
+/// An object that is followed. Vectors are in the axes of the last frame's camera.
+struct TrackedObject {
+  static constexpr double kAcceleration_m_s2 = 4.0, kAngular_rad_s2 = 4.0;  // standard deviations: people start and stop
+
+  Mover mover;
+  ObjectPoints points;
+  ConstantVelocity linear{1.0}, angular{1.0};
+  Appearance appearance;
+  Vector3d mean_velocity = Vector3d::Zero();  ///< of the last third of a second: limbs swing about it, m/s
+  Vector3d long_velocity = Vector3d::Zero();  ///< of the last second
+  Vector3d mean_turn = Vector3d::Zero();      ///< of the last third of a second, rad/s
+  Matrix3d mean_turn_covariance = Matrix3d::Identity();
+  Vector3d path = Vector3d::Zero();  ///< the way gone since it was seen first, metres
+  Matrix3d path_covariance = Matrix3d::Zero();
+  int seen_frames = 0;
+  std::size_t members = 0;    ///< features in the last frame in which it was seen
+  double slow_s = 0;          ///< for how long it has hardly moved
+  double rigid_share = 0.5;   ///< mean over time of the share of its points that move as one rigid body
+  bool turns = false;         ///< `mean_turn` is more than noise
+  bool is_confirmed = false;  ///< it is reported
+  bool is_seen = true;        ///< in the last frame
+
+  double mean_speed() const { return mean_velocity.norm(); }
+
+  /// Of a point of the object, relative to the world: with its turn where that is known.
+  Vector3d velocity_at(const Vector3d& point) const {
+    Vector3d velocity = linear.velocity();
+    if (turns) velocity += angular.velocity().cross(point - mover.centroid);
+    return velocity;
+  }
+
+  /// How much faster or slower than the object a point of it may be: limbs of what does not move rigidly.
+  double limbs_m_s() const {
+    const double speed = linear.velocity().norm();
+    return 0.15 + 0.2 * speed + (1.0 - rigid_share) * (0.3 + 0.6 * speed);
+  }
+
+  /// Its motion in the world within a time, in the current camera's axes, at constant velocity.
+  Pose step(double elapsed_s) const {
+    Pose step = Pose::Identity();
+    if (turns) step.linear() = rotation_from_vector(elapsed_s * angular.velocity());
+    step.translation() = mover.centroid + elapsed_s * linear.velocity() - step.linear() * mover.centroid;
+    return step;
+  }
+
+  /// Where it is in the coming frame at constant velocity.
+  void predict(const Pose& current_from_reference, double elapsed_s) {
+    const Matrix3d& turn = current_from_reference.linear();
+    linear.predict(turn, elapsed_s, kAcceleration_m_s2);
+    angular.predict(turn, elapsed_s, kAngular_rad_s2);
+    mean_velocity = turn * mean_velocity;
+    long_velocity = turn * long_velocity;
+    mean_turn = turn * mean_turn;
+    mean_turn_covariance = turn * mean_turn_covariance * turn.transpose();
+    path = turn * path;
+    path_covariance = turn * path_covariance * turn.transpose();
+    mover.centroid = current_from_reference * mover.centroid;
+    const Pose current_from_last = step(elapsed_s) * current_from_reference;
+    mover.centroid = step(elapsed_s) * mover.centroid;
+    mover.current_from_reference = current_from_last;
+    for (Vector3d& point : points) point = current_from_last * point;
+  }
+
+  /// The two hang together: some points of the one are near points of the other. A sample of the points is compared.
+  static bool touch(const TrackedObject& a, const TrackedObject& b, double reach_m) {
+    constexpr std::size_t kSample = 64, kFewest = 3;
+    constexpr double kShare = 0.1;
+    const std::size_t every_a = a.points.size() / kSample + 1, every_b = b.points.size() / kSample + 1;
+    std::size_t near = 0, compared = 0;
+    for (std::size_t i = 0; i < b.points.size(); i += every_b, ++compared)
+      for (std::size_t j = 0; j < a.points.size(); j += every_a)
+        if ((a.points[j] - b.points[i]).squaredNorm() <= reach_m * reach_m) {
+          ++near;
+          break;
+        }
+    return near >= kFewest && static_cast<double>(near) >= kShare * static_cast<double>(compared);
+  }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/movers/constant_velocity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace stillpoint::constant_velocity_test {
+namespace {
+
+constexpr double kExact = 1e-12;
+
+// Variance 1 before, noise 1: the gain is ½, so the velocity is half of what was measured, and its variance ½.
+TEST(ConstantVelocity, MeasurementAsGoodAsWhatIsKnownMovesItHalfTheWay) {
+  ConstantVelocity filter(1.0);
+  filter.correct({2, 0, -4}, Matrix3d::Identity());
+  EXPECT_LT((filter.velocity() - Vector3d(1, 0, -2)).norm(), kExact);
+  EXPECT_LT((filter.covariance() - 0.5 * Matrix3d::Identity()).norm(), kExact);
+}
+
+// 2 m/s² for 0.5 s: one (m/s)² more.
+TEST(ConstantVelocity, VarianceGrowsWithAccelerationTimesTimeSquared) {
+  ConstantVelocity filter(1.0);
+  filter.predict(Matrix3d::Identity(), 0.5, 2.0);
+  EXPECT_LT((filter.covariance() - 2.0 * Matrix3d::Identity()).norm(), kExact);
+}
+
+TEST(ConstantVelocity, TurnsWithTheCamera) {
+  ConstantVelocity filter(1e3);
+  filter.correct({1, 0, 0}, Vector3d(1e-12, 4, 9).asDiagonal());
+  Matrix3d quarter;  // x becomes y
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  filter.predict(quarter, 0.0, 1.0);
+  EXPECT_LT((filter.velocity() - Vector3d(0, 1, 0)).norm(), 1e-9);
+  EXPECT_NEAR(filter.covariance()(0, 0), 4.0, 1e-4) << "what was y's variance";
+}
+
+TEST(ConstantVelocity, WhatIsNoMeasurementChangesNothing) {
+  ConstantVelocity filter(1.0);
+  filter.correct(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()), Matrix3d::Identity());
+  filter.correct({1, 1, 1}, -2.0 * Matrix3d::Identity());
+  EXPECT_EQ(filter.velocity(), Vector3d::Zero());
+  EXPECT_EQ(filter.covariance(), Matrix3d::Identity());
+}
+
+}  // namespace
+}  // namespace stillpoint::constant_velocity_test

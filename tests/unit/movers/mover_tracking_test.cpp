@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// Whole scenes: who crosses, who is covered, what is pushed, and that nothing moves in a static room.
+
+#include "stillpoint/movers/mover_tracking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <opencv2/features2d.hpp>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "stillpoint/evaluation/error_statistics.hpp"
+#include "stillpoint/evaluation/mover_score.hpp"
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/pipeline/policy_traits.hpp"
+#include "stillpoint/pipeline/stage_fit.hpp"
+#include "stillpoint/policies/monocular_policies.hpp"
+#include "stillpoint/policies/with_movers.hpp"
+#include "stillpoint/synthetic/renderer.hpp"
+#include "stillpoint/synthetic/scenes.hpp"
+#include "unit/counted_allocations.hpp"
+
+namespace stillpoint::mover_tracking_test {
+namespace {
+
+static_assert(is_movers<MoverTracking, Camera>::value);
+static_assert(is_movers<NoMovers, Camera>::value);
+static_assert(!is_movers<Camera, Camera>::value);
+static_assert(std::is_same_v<MoversOf<DefaultPolicies>, NoMovers>);
+static_assert(std::is_same_v<MoversOf<WithMovers<>>, MoverTracking>);
+static_assert(fit_together(NeedsOf<WithMovers<>>{}));
+static_assert(!fit_together(NeedsOf<WithMovers<MonocularPolicies>>{}), "one camera without depth knows no metres");
+
+synthetic::SceneOptions small(int frames) {
+  synthetic::SceneOptions options;
+  options.width = 320;
+  options.height = 240;
+  options.frames = frames;
+  options.seed = 1;
+  return options;
+}
+
+/// A filter over a scene; what it says of the movers is scored.
+struct SceneRun {
+  struct Host {
+    cv::Mat gray, depth;
+    double depth_factor, time_s;
+    std::vector<cv::KeyPoint> keypoints;
+  };
+
+  explicit SceneRun(const synthetic::Scene& scene) : score(scene.movers.size()), filter(scene.camera) {
+    SyntheticSequence sequence(scene);
+    SyntheticFrame frame;
+    const auto orb = cv::ORB::create(600);
+    std::vector<std::int32_t> object_of;
+    std::vector<TrueObject> objects;
+    for (int f = 0; f < sequence.size(); ++f) {
+      sequence.render(f, frame);
+      frames.push_back({as_mat(frame.gray.view()).clone(), as_mat(frame.depth.view()).clone(), frame.depth_factor,
+                        frame.timestamp_s, {}});
+      std::vector<cv::KeyPoint>& keypoints = frames.back().keypoints;
+      orb->detect(frames.back().gray, keypoints);
+      objects.clear();
+      object_of.clear();
+      for (const Pose& pose : frame.world_from_mover) objects.push_back({pose, 0});
+      for (const cv::KeyPoint& keypoint : keypoints) {
+        const int u = cvRound(keypoint.pt.x), v = cvRound(keypoint.pt.y);
+        object_of.push_back(static_cast<int>(frame.mover_ids.view().row<std::uint8_t>(v)[u]) - 1);
+        if (object_of.back() >= 0 && frame.labels.view().row<std::uint8_t>(v)[u] == synthetic::kMoving)
+          ++objects[static_cast<std::size_t>(object_of.back())].moving_features;
+      }
+      const FrameResult& result = look(frames.back());
+      score.add_frame(frame.timestamp_s, frame.world_from_camera, objects, object_of, result);
+      expect_consistent(result);
+      places.push_back(places_of(result));
+    }
+  }
+
+  /// The same frames again, after a reset: the same answers, without any allocation.
+  void repeat() {
+    filter.reset();
+    std::size_t allocated = 0;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      const FrameResult* result = nullptr;
+      allocated += counted_allocations::count_in([&] { result = &look(frames[f]); });
+      EXPECT_EQ(places_of(*result), places[f]) << "frame " << f;
+    }
+    EXPECT_EQ(allocated, 0u);
+  }
+
+  const FrameResult& look(const Host& host) {
+    return filter.filter_frame(FrameView(host.gray, DepthView(host.depth, host.depth_factor), host.time_s),
+                               host.keypoints);
+  }
+
+  static std::vector<double> places_of(const FrameResult& result) {
+    std::vector<double> places;
+    for (const Mover& mover : result.movers())
+      for (const double value : {mover.centroid.x(), mover.centroid.y(), mover.centroid.z(), mover.velocity.x()})
+        places.push_back(value);
+    return places;
+  }
+
+  /// `mover(i)`, `features(mover)` and `movers()` say the same.
+  static void expect_consistent(const FrameResult& result) {
+    std::size_t with_mover = 0, listed = 0;
+    for (std::size_t i = 0; i < result.size(); ++i) with_mover += result.mover(i) != nullptr;
+    std::uint32_t last_id = 0;
+    for (const Mover& mover : result.movers()) {
+      EXPECT_GT(mover.id, last_id);
+      last_id = mover.id;
+      for (const std::uint32_t i : result.features(mover)) EXPECT_EQ(result.mover(i), &mover);
+      listed += result.features(mover).size();
+      EXPECT_TRUE(mover.centroid.allFinite() && mover.velocity.allFinite());
+    }
+    EXPECT_EQ(with_mover, listed);
+  }
+
+  MoverScore score;
+  FrameFilter<WithMovers<>> filter;
+  std::vector<Host> frames;
+  std::vector<std::vector<double>> places;
+};
+
+double median(const std::vector<double>& values) { return error_statistics(values).median; }
+
+TEST(MoverTracking, TwoPeopleWhoCrossKeepTheirIdentifiers) {
+  SceneRun run(synthetic::crossing_people(small(70)));
+  for (const std::size_t person : {0, 1}) {
+    const MoverFigures figures = run.score.figures(person);
+    EXPECT_GE(figures.frames, 40u);
+    EXPECT_EQ(figures.switches, 0u) << "person " << person;
+    EXPECT_GE(*figures.found_share(), 0.85) << "person " << person;
+    EXPECT_LE(median(figures.speed_m_s), 0.1) << "person " << person;
+  }
+  run.repeat();
+}
+
+// A pillar of 0.45 m, beside which somebody walks at 0.8 m/s: about half a second behind it.
+TEST(MoverTracking, WhoIsCoveredForHalfASecondKeepsHisIdentifier) {
+  synthetic::Scene scene = synthetic::crossing_people(small(70));
+  scene.movers.erase(scene.movers.begin());
+  const synthetic::TexturePtr texture = scene.furniture.back().textures[0];
+  scene.furniture.emplace_back(synthetic::Shape::cuboid, Vector3d(0.2, 1.2, 0.1), Vector3d(0.05, -1.2, 0.9), texture);
+  const SceneRun run(scene);
+  const MoverFigures figures = run.score.figures(0);
+  EXPECT_LE(figures.frames, 65u) << "he is covered for some frames";
+  EXPECT_GE(figures.found, 20u);
+  EXPECT_EQ(figures.switches, 0u);
+}
+
+TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASecond) {
+  synthetic::SceneOptions options = small(60);
+  options.width = 640;  // at half of it, noise hides so slow a turn
+  options.height = 480;
+  const SceneRun run(synthetic::pushed_box(options));
+  const MoverFigures figures = run.score.figures(0);
+  EXPECT_EQ(figures.switches, 0u);
+  EXPECT_GE(*figures.found_share(), 0.8);
+  ASSERT_GE(figures.carried_m.size(), 10u);
+  EXPECT_LE(median(figures.carried_deg), 3.0);
+  EXPECT_LE(median(figures.carried_m), 0.05);
+  EXPECT_LE(median(figures.speed_m_s), 0.1);
+}
+
+TEST(MoverTracking, NothingMovesInAStaticRoom) {
+  const SceneRun run(synthetic::static_room(small(40)));
+  EXPECT_EQ(run.score.frames(), 39u);
+  EXPECT_EQ(run.score.frames_with_movers(), 0u);
+}
+
+}  // namespace
+}  // namespace stillpoint::mover_tracking_test

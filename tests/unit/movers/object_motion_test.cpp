@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/movers/object_motion.hpp"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <vector>
+
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/movers/motion_groups.hpp"
+#include "stillpoint/movers/moving_features.hpp"
+
+namespace stillpoint::object_motion_test {
+namespace {
+
+const Camera kCamera(525, 525, 320, 240, 640, 480);
+constexpr double kDepthSigma_m = 0.005, kPixelSigma_px = 0.5;
+
+/// Points in a cube of 0.4 m around a centre, moved.
+std::vector<WhitenedPair> pairs_of(const Vector3d& centre, const Pose& moved, std::size_t count, Random& random) {
+  std::vector<WhitenedPair> pairs;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3d point =
+        centre + Vector3d(random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2));
+    pairs.emplace_back(point, kDepthSigma_m, moved * point, kDepthSigma_m, kPixelSigma_px, kCamera);
+  }
+  return pairs;
+}
+
+Pose shift(double x, double y, double z) {
+  Pose pose = Pose::Identity();
+  pose.translation() = Vector3d(x, y, z);
+  return pose;
+}
+
+/// About an upright axis through a centre.
+Pose turn_about(const Vector3d& centre, double radians) {
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation_from_vector({0, radians, 0});
+  pose.translation() = centre - pose.linear() * centre;
+  return pose;
+}
+
+TEST(ObjectMotion, TranslationIsExactWithTwoFifthsOfThePairsElsewhere) {
+  Random random(3);
+  Workspace workspace;
+  std::vector<WhitenedPair> pairs = pairs_of({0, 0, 2}, shift(0.02, 0, -0.01), 30, random);
+  for (const WhitenedPair& pair : pairs_of({0, 0, 2}, shift(-0.4, 0.3, 0.5), 20, random)) pairs.push_back(pair);
+  const std::optional<ObjectMotion> motion = ObjectMotionEstimator::translation(pairs, workspace);
+  ASSERT_TRUE(motion);
+  EXPECT_LT((motion->moved.translation() - Vector3d(0.02, 0, -0.01)).norm(), 1e-3);
+  EXPECT_EQ(motion->moved.linear(), Matrix3d::Identity());
+  EXPECT_DOUBLE_EQ(motion->inlier_share, 0.6);
+  EXPECT_FALSE(motion->has_rotation);
+}
+
+// N pairs straight ahead at 2 m: across the ray each is known to √2 · ½ px · 2 m / 525 px, along it to √2 · 5 mm. The
+// pairs are exact, so that Cauchy's weights are 1 and the variance is that over N.
+TEST(ObjectMotion, TranslationKnowsHowCertainItIs) {
+  Workspace workspace;
+  const std::size_t count = 8;
+  const std::vector<WhitenedPair> pairs(
+      count, WhitenedPair({0, 0, 2}, kDepthSigma_m, {0, 0, 2}, kDepthSigma_m, kPixelSigma_px, kCamera));
+  const std::optional<ObjectMotion> motion = ObjectMotionEstimator::translation(pairs, workspace);
+  ASSERT_TRUE(motion);
+  const double across_sq = 2 * 0.25 * 4.0 / (525.0 * 525.0) / count, along_sq = 2 * 25e-6 / count;
+  EXPECT_NEAR(motion->covariance(3, 3), across_sq, 1e-3 * across_sq);
+  EXPECT_NEAR(motion->covariance(5, 5), along_sq, 1e-3 * along_sq);
+}
+
+TEST(ObjectMotion, RigidFindsATurn) {
+  Random random(4);
+  const Pose moved = shift(0.01, 0, 0.02) * turn_about({0.3, 0, 1.5}, 0.05);
+  const std::vector<WhitenedPair> pairs = pairs_of({0.3, 0, 1.5}, moved, 60, random);
+  const std::optional<ObjectMotion> motion = ObjectMotionEstimator::rigid(pairs, Pose::Identity());
+  ASSERT_TRUE(motion);
+  EXPECT_TRUE(motion->has_rotation);
+  EXPECT_LT(rotation_angle(motion->moved.linear().transpose() * moved.linear()), 1e-4);
+  EXPECT_LT((motion->moved.translation() - moved.translation()).norm(), 1e-4);
+}
+
+TEST(ObjectMotion, PointsOnALineAndFewPointsDetermineNoTurn) {
+  Workspace workspace;
+  std::vector<WhitenedPair> line;
+  for (int k = 0; k < 20; ++k) {
+    const Vector3d point(0.02 * k, 0, 2);
+    line.emplace_back(point, kDepthSigma_m, point, kDepthSigma_m, kPixelSigma_px, kCamera);
+  }
+  EXPECT_FALSE(ObjectMotionEstimator::rigid(line, Pose::Identity()));
+  EXPECT_TRUE(ObjectMotionEstimator::translation(line, workspace));
+  EXPECT_FALSE(ObjectMotionEstimator::rigid({line.data(), 7}, Pose::Identity()));
+  EXPECT_FALSE(ObjectMotionEstimator::translation({line.data(), 2}, workspace));
+}
+
+// At (1, 0, 2) the ray is (½, 0, 1). Seen at (0.5, 0, 1) m/s, that is 1 m/s along it: with 0.2 m/s of noise along the ray
+// 0.4 m/s are left of the difference to standing still, three standard deviations being noise. Across it nothing is.
+TEST(FeatureVelocity, NoiseAlongTheRayIsTakenOff) {
+  const FeatureVelocity velocity{true, {0.5, 0, 1}, 0.2};
+  EXPECT_NEAR(velocity.difference(Vector3d::Zero(), {1, 0, 2}), 0.4, 1e-12);
+  const FeatureVelocity across{true, {0.3, 0.4, 0}, 0.2};
+  EXPECT_NEAR(across.difference(Vector3d::Zero(), {1, 0, 2}), 0.5, 1e-12);
+}
+
+// ---- Groups ----
+
+DynamicPoints points_of(const std::vector<WhitenedPair>& pairs, Workspace& workspace) {
+  DynamicPoints points(pairs.size(), workspace);
+  for (const WhitenedPair& pair : pairs) {
+    points.feature[points.size] = static_cast<std::uint32_t>(points.size);
+    points.pair[points.size] = pair;
+    points.has_step[points.size++] = 1;
+  }
+  return points;
+}
+
+TEST(MotionGroups, TwoThatTouchAndGoOppositeWaysAreTwoGroups) {
+  Random random(5);
+  Workspace workspace;
+  std::vector<WhitenedPair> pairs = pairs_of({-0.2, 0, 2}, shift(0.03, 0, 0), 60, random);
+  for (const WhitenedPair& pair : pairs_of({0.2, 0, 2}, shift(-0.03, 0, 0), 50, random)) pairs.push_back(pair);
+  const DynamicPoints points = points_of(pairs, workspace);
+  const MotionGroups groups(points, 1.0 / 30, workspace);
+  ASSERT_EQ(groups.count, 2u);
+  std::size_t wrong = 0;  // the larger group is peeled off first
+  for (std::size_t k = 0; k < points.size; ++k) wrong += groups.of_point[k] != (k < 60 ? 0 : 1);
+  EXPECT_LE(wrong, 20u) << "two pieces of surface where they touch";
+}
+
+TEST(MotionGroups, AnArmThatSwingsIsAPartOfItsBody) {
+  Random random(6);
+  Workspace workspace;
+  std::vector<WhitenedPair> pairs = pairs_of({0, 0, 2}, shift(0.02, 0, 0), 80, random);
+  for (const WhitenedPair& pair : pairs_of({0.3, 0, 2}, shift(-0.03, 0, 0), 20, random)) pairs.push_back(pair);
+  const MotionGroups groups(points_of(pairs, workspace), 1.0 / 30, workspace);
+  for (const std::int32_t group : groups.of_point) EXPECT_EQ(group, 0);
+}
+
+TEST(MotionGroups, ThoseThatAreApartAreTwoGroupsThoughTheyMoveAlike) {
+  Random random(7);
+  Workspace workspace;
+  std::vector<WhitenedPair> pairs = pairs_of({-1, 0, 2}, shift(0.02, 0, 0), 40, random);
+  for (const WhitenedPair& pair : pairs_of({1, 0, 2}, shift(0.02, 0, 0), 40, random)) pairs.push_back(pair);
+  const MotionGroups groups(points_of(pairs, workspace), 1.0 / 30, workspace);
+  ASSERT_EQ(groups.count, 2u);
+  for (std::size_t k = 0; k < 80; ++k) EXPECT_EQ(groups.of_point[k], groups.of_point[k < 40 ? 0 : 40]);
+  EXPECT_NE(groups.of_point[0], groups.of_point[40]);
+}
+
+TEST(MotionGroups, NothingIsNoGroup) {
+  Workspace workspace;
+  EXPECT_EQ(MotionGroups(DynamicPoints(), 1.0 / 30, workspace).count, 0u);
+}
+
+}  // namespace
+}  // namespace stillpoint::object_motion_test
