@@ -228,8 +228,8 @@ TEST_F(Inputs, VideoRunsToItsEnd) {
   EXPECT_EQ(read_csv(out / "frames.csv").at(3).at(0), "0.200000");
   // How many there will be is not known; each has its picture while they fit.
   std::size_t pictures = 0;
-  const std::string head = "\"jpeg\":\"data:image/jpeg;base64,";
-  for (std::size_t at = page().find(head); at != std::string::npos; at = page().find(head, at + 1)) ++pictures;
+  const std::string html = page(), head = "\"jpeg\":\"data:image/jpeg;base64,";
+  for (std::size_t at = html.find(head); at != std::string::npos; at = html.find(head, at + 1)) ++pictures;
   EXPECT_EQ(pictures, 40u);
 }
 
