@@ -32,7 +32,7 @@ class Inputs : public testing::Test {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 0) << arguments << '\n' << outcome.error;
     EXPECT_TRUE(outcome.error.empty()) << outcome.error;
-    EXPECT_EQ(files_in(out).size(), 7u);
+    EXPECT_EQ(files_in(out).size(), 8u);
     said = outcome.out;
   }
   void expect_named_error(const std::string& arguments, const std::vector<std::string>& texts) const {
