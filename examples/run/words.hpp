@@ -48,7 +48,7 @@ inline std::string trajectory_words(const RunRecord& run, const Figures& figures
   if (run.ground_truth) return "There are too few poses to compare the trajectories with the reference.";
   const std::string unknown = "There is no reference, so that nobody knows how far the trajectory is off";
   if (!figures.divergence_max_m) return unknown + ".";
-  return unknown + "; with and without the filter it parts by up to " + length_words(*figures.divergence_max_m) + ".";
+  return unknown + "; those with and without the filter part by up to " + length_words(*figures.divergence_max_m) + ".";
 }
 
 inline std::string label_words(const RunRecord& run) {

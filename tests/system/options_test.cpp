@@ -123,7 +123,8 @@ TEST(Calibration, MeasuresTheNoiseOfTheRenderedSensor) {
 
 TEST(Calibration, RefusesAScene) {
   const TemporaryFolder folder;
-  const Outcome moving = run_program("--demo --calibrate --quiet --frames 40 --out " + quoted(folder / "out"));
+  const Outcome moving =
+      run_program("--demo --calibrate --quiet --start 60 --frames 40 --out " + quoted(folder / "out"));
   EXPECT_EQ(moving.status, 2);
   EXPECT_NE(moving.error.find("of the features to move, expected a scene in which nothing does"), std::string::npos)
       << moving.error;

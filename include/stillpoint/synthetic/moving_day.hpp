@@ -50,7 +50,8 @@ inline Mover loaded_trolley(Path path, std::uint64_t seed) {
 }
 
 /// Somebody pushes a loaded trolley across the view of a hand-held camera, somebody else walks behind it. No detector
-/// knows the trolley. The odometry of examples/ is off by half a metre without the filter, by a few millimetres with it.
+/// knows the trolley. The odometry of examples/ is off by half a metre without the filter, by a few millimetres with
+/// it.
 inline Scene moving_day(const SceneOptions& options) {
   Scene scene = detail::stage("moving_day", options);
   scene.camera_path = detail::wandering_camera(options);
