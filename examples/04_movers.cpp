@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// 04_movers: what moves, where, and how fast? Two people, rendered, walk past a hand-held RGB-D camera; where they are
+// 04_movers: what moves, where, and how fast? Two people, rendered, cross before an RGB-D camera; where they are
 // seen is said by the boxes of a perfect detector, which name them.
 
 #include <cmath>
@@ -15,7 +15,7 @@
 #include <vector>
 
 int main() {
-  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::walking_people());
+  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::crossing_people());
   stillpoint::SyntheticFrame frame;
   const auto orb = cv::ORB::create(1000);
   // [movers]

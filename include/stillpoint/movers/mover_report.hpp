@@ -24,7 +24,7 @@ namespace stillpoint {
 class MoverReport {
  public:
   template <class Camera>
-  static void write(const std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features,
+  static void write(std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features,
                     const Regions& regions, Movers& result, Workspace& workspace) {
     const Workspace::Scope scope(workspace);
     const Matches& matches = features.matches;
@@ -36,7 +36,7 @@ class MoverReport {
     std::sort(order.begin(), order.begin() + count,
               [&](std::size_t a, std::size_t b) { return objects[a].mover.id < objects[b].mover.id; });
     for (const std::size_t o : order.first(count)) {
-      const TrackedObject& object = objects[o];
+      TrackedObject& object = objects[o];
       Mover mover = object.mover;
       mover.velocity = object.linear.velocity();
       mover.velocity_covariance = object.linear.covariance();
@@ -52,6 +52,8 @@ class MoverReport {
       mover.feature_count = result.feature.size() - mover.first_feature;
       mover.pixel_count = result.pixel.size() - mover.first_pixel;
       name(features, regions, static_cast<std::int32_t>(o), mover, workspace);
+      object.mover.class_index = mover.class_index;  // kept for frames in which no detector speaks
+      object.mover.confidence = mover.confidence;
       if (object.is_seen)
         mover.box = box_of({result.pixel.data() + mover.first_pixel, mover.pixel_count});
       else
@@ -85,8 +87,7 @@ class MoverReport {
       if (found[i] != kNone) features.object_of[i] = found[i];
   }
 
-  /// The detection that holds most of its features, and at least half of them, names it; a name is kept where no
-  /// detector speaks.
+  /// The detection that holds most of its features, and at least half of them, names it.
   template <class Camera>
   static void name(const MovingFeatures<Camera>& features, const Regions& regions, std::int32_t index, Mover& mover,
                    Workspace& workspace) {
