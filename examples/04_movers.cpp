@@ -4,7 +4,6 @@
 // 04_movers: what moves, where, and how fast? Two people, rendered, cross before an RGB-D camera; where they are
 // seen is said by the boxes of a perfect detector, which name them.
 
-#include <cmath>
 #include <cstdio>
 #include <opencv2/features2d.hpp>
 #include <stillpoint/filter_frame.hpp>
@@ -25,9 +24,13 @@ int main() {
     sequence.render(i, frame);
     std::vector<cv::KeyPoint> keypoints;
     orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
-    for (const auto& box : frame.boxes)  // class 0: person
-      filter.prior.detections.push_back({{float(box.x), float(box.y), float(box.width), float(box.height)},
-                                         stillpoint::Mobility::dynamic, 1.0f, 0, INFINITY, 0, nullptr, 0});
+    for (const auto& box : frame.boxes) {
+      stillpoint::Detection person;
+      person.box = {float(box.x), float(box.y), float(box.width), float(box.height)};
+      person.mobility = stillpoint::Mobility::dynamic;
+      person.class_index = 0;
+      filter.prior.detections.push_back(person);
+    }
     // [movers]
     for (const stillpoint::Mover& mover : filter.filter_frame(frame.view(), keypoints).movers())
       std::printf("frame %d: %s %u: %.1f m ahead, %.1f m/s to the %s (%s)\n", i,

@@ -3,13 +3,14 @@
 # SPDX-License-Identifier: MIT
 
 # demo.sh [ARGUMENT...]: installs what is missing (as root on Debian), builds stillpoint_run, runs it on its synthetic
-# scene and says where the report is. Arguments go to stillpoint_run. From any folder:
+# scene and says where program and report are. Arguments go to stillpoint_run. From any folder:
 #   bash examples/demo.sh
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build/demo
+program=$build/examples/stillpoint_run
 
-bash "$root/tests/install_packages.sh" g++ cmake ninja-build libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev \
+bash "$root/tests/install_packages.sh" g++ cmake ninja-build libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev libceres-dev \
   nlohmann-json3-dev < /dev/null
 
 echo "Building stillpoint_run: a few minutes, the first time."
@@ -18,4 +19,13 @@ cmake -S "$root" -B "$build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Rel
   -DSTILLPOINT_WARNINGS_AS_ERRORS="${STILLPOINT_WARNINGS_AS_ERRORS:-OFF}" > /dev/null
 cmake --build "$build" --target stillpoint_run
 
-"$build/examples/stillpoint_run" --demo --out "$build/report" "$@"
+"$program" --demo --out "$build/report" "$@"
+
+[[ -f $build/report/report.html ]] || exit 0  # --help, --version
+cat << END
+
+Program: $program
+Report:  $build/report/report.html (open it in a browser)
+Your own recording, in the layout of the TUM RGB-D benchmark (docs/first_steps.md):
+  $program --tum FOLDER --out OUT
+END

@@ -14,10 +14,8 @@
 #include <vector>
 
 #include "stillpoint/evaluation/feature_score.hpp"
-#include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/tum_sequence.hpp"
-#include "stillpoint/opencv.hpp"
-#include "stillpoint/policies.hpp"
+#include "stillpoint/stillpoint.hpp"
 
 namespace {
 

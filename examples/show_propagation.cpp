@@ -19,6 +19,7 @@
 #include "run/filters.hpp"
 #include "run/frame_record.hpp"
 #include "run/frame_source.hpp"
+#include "run/image_offsets.hpp"
 #include "run/overlay.hpp"
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/filter_frame.hpp"
@@ -94,6 +95,7 @@ cv::Mat draw() {
     const stillpoint::FrameResult& result = filter.filter_frame(frame.view(), keypoints);
     record.summary = FrameSummary{};
     record.summary.timestamp_s = frame.timestamp_s;
+    record.summary.time_s = frame.timestamp_s - sequence.scene().start_s;
     write_down(
         frame.view(), filter, keypoints, result, [&detector](int index) { return detector.class_name(index); }, record);
     if (i >= kFirst && (i - kFirst) % kStep == 0)

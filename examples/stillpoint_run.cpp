@@ -31,10 +31,11 @@
 #include "run/open_source.hpp"
 #include "run/options.hpp"
 #include "run/options_json.hpp"
-#include "run/overlay.hpp"
+#include "run/picture_roll.hpp"
 #include "run/report_html.hpp"
 #include "run/report_json.hpp"
 #include "run/sequence_run.hpp"
+#include "run/video_file.hpp"
 #include "run/words.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/atomic_file.hpp"
@@ -85,9 +86,11 @@ void run(const Options& options) {
   make_folder(options.out);
   FeaturesFile features(options.out / "features.csv");
   FramesFile frames(options.out / "frames.csv");
+  PictureRoll roll;
+  std::optional<VideoFile> video;
+  if (!options.save_video.empty()) video.emplace(options.save_video);
   std::optional<MoversFile> movers;
   if (!options.no_movers) movers.emplace(options.out / "movers.csv");
-  Gallery gallery(frame_count(options, *source));
 
   std::string yaml;
   nlohmann::ordered_json stages;
@@ -95,21 +98,28 @@ void run(const Options& options) {
     describe(filter, yaml, stages);
     const auto tracker = [&] { return make_tracker(options, source->camera()); };
     return run_frames(options, *source, *detector, std::move(filter), tracker(), tracker(),
-                      RunOutput{features, frames, movers ? &*movers : nullptr, gallery});
+                      RunOutput{features, frames, roll, video ? &*video : nullptr, movers ? &*movers : nullptr});
   });
   const Figures figures = evaluate(record);
   const std::string json = report_json(options, record, figures, stages);
-  const std::string html = report_html(options, record, figures, gallery.overlays());
+  const std::string html = report_html(options, record, figures, source->camera(), roll);
 
   stillpoint::write_trajectory(options.out / "trajectory.txt", record.filtered);
   stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
+  if (record.map) {
+    stillpoint::write_trajectory(options.out / "trajectory_live.txt", record.live);
+    write_whole(options.out / "map.ply", record.map->ply);
+    if (!record.map->before_loop.empty()) write_whole(options.out / "map_before_loop.ply", record.map->before_loop);
+  }
   features.commit();
   frames.commit();
+  if (video) video->commit();
   if (movers) movers->commit();
   if (!yaml.empty()) write_whole(options.out / "options.yaml", yaml);
   write_whole(options.out / "report.json", json);
   write_whole(options.out / "report.html", html);
   for (const std::string& sentence : sentences(options, record, figures)) std::printf("%s\n", sentence.c_str());
+  if (video) std::printf("Video: %s\n", options.save_video.string().c_str());
   std::printf("Report: %s\n", (options.out / "report.html").string().c_str());
 }
 

@@ -7,11 +7,8 @@
 
 #include <opencv2/core/hal/hal.hpp>
 #include <opencv2/core/mat.hpp>
-#include <opencv2/features2d.hpp>
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -19,6 +16,7 @@
 
 #include "keyframe_pose.hpp"
 #include "orb_features.hpp"
+#include "spread_orb.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -30,10 +28,7 @@ namespace examples {
 class OrbOdometry {
  public:
   struct Options {
-    int features = 1000;
-    int candidates = 4;         ///< times as many corners are detected, of which the best of each place are taken
-    int fast_threshold = 7;     ///< gray values by which a corner differs from what surrounds it
-    int cell_px = 32;           ///< side of a place
+    SpreadOrb::Options orb;
     float search_px = 20.0f;    ///< around where a point is expected
     int farthest_bits = 64;     ///< of 256 in which two descriptors of one point may differ
     double second_best = 0.85;  ///< the best differs by less than this share of the second best
@@ -43,19 +38,9 @@ class OrbOdometry {
 
   explicit OrbOdometry(Camera camera) : OrbOdometry(std::move(camera), Options{}) {}
   OrbOdometry(Camera camera, const Options& settings)
-      : options(settings),
-        pose(std::move(camera)),
-        orb_(cv::ORB::create(settings.features * settings.candidates, 1.2f, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31,
-                             settings.fast_threshold)) {}
+      : options(settings), pose(std::move(camera)), orb_(settings.orb) {}
 
-  OrbFeatures extract(const stillpoint::FrameView& frame) {
-    const cv::Mat gray = stillpoint::as_mat(stillpoint::with_gray(frame, gray_).gray);
-    OrbFeatures features;
-    orb_->detect(gray, features.keypoints);
-    spread(features.keypoints);
-    orb_->compute(gray, features.keypoints, features.descriptors);
-    return features;
-  }
+  OrbFeatures extract(const stillpoint::FrameView& frame) { return orb_.extract(frame); }
 
   void expect_motion(const Pose& current_from_last) { pose.expect_motion(current_from_last); }
 
@@ -66,29 +51,6 @@ class OrbOdometry {
 
  private:
   using Frame = KeyframePose<OrbFeatures>::Frame;
-
-  /// The strongest corner of each place first, then the second of each, until there are enough: where the texture is
-  /// richest, on a poster or a shirt, there are no more of them than elsewhere.
-  void spread(std::vector<cv::KeyPoint>& keypoints) const {
-    std::stable_sort(keypoints.begin(), keypoints.end(),
-                     [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
-    const int columns = pose.camera().width() / options.cell_px + 1,
-              rows = pose.camera().height() / options.cell_px + 1;
-    std::vector<int> count(static_cast<std::size_t>(columns * rows), 0);
-    std::vector<std::pair<int, std::size_t>> rank;
-    for (std::size_t i = 0; i < keypoints.size(); ++i) {
-      const int column = static_cast<int>(keypoints[i].pt.x) / options.cell_px;
-      const int row = static_cast<int>(keypoints[i].pt.y) / options.cell_px;
-      rank.emplace_back(count[static_cast<std::size_t>(row * columns + column)]++, i);
-    }
-    std::sort(rank.begin(), rank.end());
-    rank.resize(std::min(rank.size(), static_cast<std::size_t>(options.features)));
-    std::vector<cv::KeyPoint> taken;
-    for (const auto& entry : rank) taken.push_back(keypoints[entry.second]);
-    std::stable_sort(taken.begin(), taken.end(),
-                     [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.octave < b.octave; });
-    keypoints = std::move(taken);
-  }
 
   /// The points of a keyframe that are found again, each by the feature that is most like it; without an expected pose
   /// they are looked for in the whole image.
@@ -139,8 +101,7 @@ class OrbOdometry {
                                 a.descriptors.cols);
   }
 
-  cv::Ptr<cv::ORB> orb_;
-  stillpoint::ImageBuffer gray_;
+  SpreadOrb orb_;
   stillpoint::Workspace workspace_;
   std::vector<stillpoint::Vector2f> pixels_;
 };

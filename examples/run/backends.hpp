@@ -10,16 +10,24 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "../backends/klt_odometry.hpp"
 #include "../backends/odometry.hpp"
 #include "../backends/orb_odometry.hpp"
+#include "map_files.hpp"
 #include "options.hpp"
 #include "stillpoint/core/compact.hpp"
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/opencv.hpp"
+#ifdef STILLPOINT_RUN_WITH_SLAM
+#include "../slam/slam.hpp"
+#endif
 
 namespace stillpoint_run {
 
@@ -43,6 +51,11 @@ class NoTracker {
  private:
   cv::Ptr<cv::ORB> orb_;
 };
+
+template <class Backend, class = void>
+struct has_map : std::false_type {};
+template <class Backend>
+struct has_map<Backend, std::void_t<decltype(std::declval<Backend&>().map_ply())>> : std::true_type {};
 
 /// Any of the trackers, with a clock beside it. One type for all of them, so that the run is compiled once for each
 /// filter and not for each pair.
@@ -84,6 +97,15 @@ class AnyTracker {
 
   void expect_motion(const stillpoint::Pose& current_from_last) { tracker_->expect_motion(current_from_last); }
 
+  /// All poses as a map has them in the end; nothing from a tracker without a map.
+  std::optional<stillpoint::Trajectory> trajectory() { return tracker_->trajectory(); }
+
+  std::optional<MapFiles> map_files() { return tracker_->map_files(); }
+  /// What a detector has seen in the coming frame.
+  void expect_detections(const std::vector<stillpoint::Detection>& detections) {
+    tracker_->expect_detections(detections);
+  }
+
   double extract_ms = 0.0;  ///< of the last frame
   double track_ms = 0.0;
 
@@ -93,6 +115,9 @@ class AnyTracker {
     virtual Features extract(const stillpoint::FrameView& frame) = 0;
     virtual void expect_motion(const stillpoint::Pose& current_from_last) = 0;
     virtual std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) = 0;
+    virtual std::optional<stillpoint::Trajectory> trajectory() = 0;
+    virtual std::optional<MapFiles> map_files() = 0;
+    virtual void expect_detections(const std::vector<stillpoint::Detection>& detections) = 0;
   };
 
   template <class Backend>
@@ -122,6 +147,21 @@ class AnyTracker {
     std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) override {
       return backend.track(frame, static_cast<const Arrays&>(arrays).features);
     }
+    std::optional<stillpoint::Trajectory> trajectory() override {
+      if constexpr (has_map<Backend>::value)
+        return backend.trajectory();
+      else
+        return std::nullopt;
+    }
+    std::optional<MapFiles> map_files() override {
+      if constexpr (has_map<Backend>::value)
+        return MapFiles{backend.map_ply(), backend.map_ply_before_loop()};
+      else
+        return std::nullopt;
+    }
+    void expect_detections(const std::vector<stillpoint::Detection>& detections) override {
+      if constexpr (has_map<Backend>::value) backend.expect_detections(detections);
+    }
 
     Backend backend;
   };
@@ -129,13 +169,36 @@ class AnyTracker {
   std::unique_ptr<Concept> tracker_;
 };
 
+#ifdef STILLPOINT_RUN_WITH_SLAM
+inline AnyTracker make_slam(const Options& options, const stillpoint::Camera& camera) {
+  examples::slam::SlamOptions slam;
+  slam.orb.features = options.features;
+  slam.maps_in_step = options.maps_in_step;
+  slam.uses_multi_view = !options.slam_without("multi-view");
+  slam.uses_bundle = !options.slam_without("bundle");
+  slam.uses_loops = !options.slam_without("loops");
+  slam.uses_things = !options.slam_without("semantics");
+  return AnyTracker(examples::slam::Slam(camera, slam));
+}
+#endif
+
 /// A new tracker of the kind that the options name.
+/// @throws stillpoint::Error for the SLAM where the program was built without it.
 inline AnyTracker make_tracker(const Options& options, const stillpoint::Camera& camera) {
   if (options.backend == "none") return AnyTracker(NoTracker(options.features));
+  if (options.backend == "slam") {
+#ifdef STILLPOINT_RUN_WITH_SLAM
+    return make_slam(options, camera);
+#else
+    throw stillpoint::Error(
+        "--backend: found slam, but this stillpoint_run was built without Ceres, which adjusts its map (Debian: "
+        "libceres-dev); expected one of odometry, klt, orb, none");
+#endif
+  }
   if (options.backend == "klt") return AnyTracker(examples::KltOdometry(camera));
   if (options.backend == "orb") {
     examples::OrbOdometry::Options orb;
-    orb.features = options.features;
+    orb.orb.features = options.features;
     return AnyTracker(examples::OrbOdometry(camera, orb));
   }
   examples::RgbdOdometry::Options odometry;

@@ -14,6 +14,7 @@
 
 #include "detection_feed.hpp"
 #include "frame_record.hpp"
+#include "map_files.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
@@ -30,7 +31,9 @@ struct RunRecord {
   bool was_interrupted = false;
   std::size_t missing_files = 0;                ///< that the sequence's lists name
   std::vector<std::string> assumptions;         ///< of the source, where nobody told it
-  stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame
+  stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame; as a map has them in the end
+  stillpoint::Trajectory live;                  ///< the filtered one, as it was known at the time
+  std::optional<MapFiles> map;                  ///< of a tracker that has one: it adjusts poses later
   std::optional<stillpoint::Trajectory> ground_truth;
   std::optional<DetectorRecord> detector;  ///< empty where no network ran
   stillpoint::FilterScore labels;
@@ -60,6 +63,8 @@ struct TrajectoryFigures {
   std::optional<double> ate_rmse_m;
   RelativeError rpe_frame, rpe_second;  ///< over one frame and over one second
   stillpoint::AbsoluteTrajectoryError absolute;
+  stillpoint::Similarity reference_from_estimate;  ///< as it is drawn
+  stillpoint::TrajectoryErrors drift;              ///< of the poses as they are drawn
 };
 
 struct StageTime {
@@ -75,6 +80,8 @@ struct Figures {
   std::optional<Spread> detection_ms;  ///< of a network
   std::optional<double> features_per_frame, kept_share, improvement_percent;
   TrajectoryFigures filtered, unfiltered;
+  stillpoint::TrajectoryErrors divergence;  ///< of the unfiltered trajectory from the filtered one, laid on its start
+  std::optional<double> divergence_max_m, divergence_max_deg;
 };
 
 namespace detail {
@@ -112,6 +119,56 @@ inline TrajectoryFigures trajectory_figures(const RunRecord& run, const stillpoi
   figures.rpe_frame = relative_error(run, estimate, 1.0, stillpoint::PairSelection::consecutive);
   figures.rpe_second = relative_error(run, estimate, frames_per_second(run.frames), stillpoint::PairSelection::all);
   return figures;
+}
+
+inline void append_difference(stillpoint::TrajectoryErrors& errors, double timestamp_s,
+                              const stillpoint::Pose& difference) {
+  constexpr double kDegreesPerRadian = 57.29577951308232;
+  errors.timestamps_s.push_back(timestamp_s);
+  errors.translation_m.push_back(difference.translation().norm());
+  errors.rotation_deg.push_back(kDegreesPerRadian * stillpoint::rotation_angle(difference.linear()));
+}
+
+/// Lays both trajectories on the reference by the alignment of the better one: they start at the same pose, so that
+/// what the other has drifted shows as it is. (Its own alignment would turn its start away to spread the error evenly.)
+inline void lay_on_reference(const RunRecord& run, Figures& figures) {
+  TrajectoryFigures &with = figures.filtered, &without = figures.unfiltered;
+  const bool start_together = !run.filtered.empty() && !run.unfiltered.empty() &&
+                              run.filtered.front().timestamp_s == run.unfiltered.front().timestamp_s;
+  const auto own = [](TrajectoryFigures& of) { return of.absolute.alignment.target_from_source; };
+  if (with.ate_rmse_m) with.reference_from_estimate = own(with);
+  if (without.ate_rmse_m) without.reference_from_estimate = own(without);
+  if (start_together && with.ate_rmse_m && without.ate_rmse_m)
+    (*with.ate_rmse_m <= *without.ate_rmse_m ? without : with).reference_from_estimate =
+        (*with.ate_rmse_m <= *without.ate_rmse_m ? with : without).reference_from_estimate;
+  const auto drift = [&run](const stillpoint::Trajectory& estimate, TrajectoryFigures& of) {
+    if (!of.ate_rmse_m) return;
+    const stillpoint::AssociatedTrajectories pairs = stillpoint::associate(*run.ground_truth, estimate, 0.01);
+    const stillpoint::Trajectory laid = stillpoint::transformed(of.reference_from_estimate, pairs.estimate);
+    for (std::size_t i = 0; i < laid.size(); ++i)
+      append_difference(of.drift, laid[i].timestamp_s,
+                        pairs.reference[i].world_from_camera.inverse() * laid[i].world_from_camera);
+  };
+  drift(run.filtered, with);
+  drift(run.unfiltered, without);
+}
+
+/// How far the two trajectories part, at the moments that both have a pose of.
+inline stillpoint::TrajectoryErrors divergence(const stillpoint::Trajectory& filtered,
+                                               const stillpoint::Trajectory& unfiltered) {
+  stillpoint::TrajectoryErrors errors;
+  std::size_t k = 0;
+  for (const auto& pose : filtered) {
+    while (k < unfiltered.size() && unfiltered[k].timestamp_s < pose.timestamp_s) ++k;
+    if (k == unfiltered.size()) break;
+    if (unfiltered[k].timestamp_s != pose.timestamp_s) continue;
+    append_difference(errors, pose.timestamp_s, pose.world_from_camera.inverse() * unfiltered[k].world_from_camera);
+  }
+  return errors;
+}
+
+inline std::optional<double> greatest(const std::vector<double>& values) {
+  return values.empty() ? std::nullopt : std::optional(*std::max_element(values.begin(), values.end()));
 }
 
 /// Times are those of frames that were judged: on the others the stages did not run.
@@ -162,6 +219,10 @@ inline Figures evaluate(const RunRecord& run) {
   if (run.detector) figures.detection_ms = spread_of(run.detector->times_ms);
   figures.filtered = detail::trajectory_figures(run, run.filtered);
   figures.unfiltered = detail::trajectory_figures(run, run.unfiltered);
+  detail::lay_on_reference(run, figures);
+  figures.divergence = detail::divergence(run.filtered, run.unfiltered);
+  figures.divergence_max_m = detail::greatest(figures.divergence.translation_m);
+  figures.divergence_max_deg = detail::greatest(figures.divergence.rotation_deg);
   if (figures.filtered.ate_rmse_m && figures.unfiltered.ate_rmse_m)
     figures.improvement_percent =
         stillpoint::improvement_percent(*figures.unfiltered.ate_rmse_m, *figures.filtered.ate_rmse_m);

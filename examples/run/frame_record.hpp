@@ -6,8 +6,10 @@
 
 #include <opencv2/core/types.hpp>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/opencv.hpp"
@@ -36,6 +39,7 @@ struct FeatureRow {
 /// A frame as a whole.
 struct FrameSummary {
   double timestamp_s = 0.0;
+  double time_s = 0.0;  ///< since the run's first frame
   stillpoint::Status status = stillpoint::Status::ok;
   stillpoint::Warnings warnings;
   const char* hint = "";  ///< what is probably wrong with the input
@@ -43,6 +47,7 @@ struct FrameSummary {
   stillpoint::Timings timings;
   double extract_ms = 0.0, track_ms = 0.0;
   std::size_t features = 0, kept = 0, keep_floor_kept = 0;
+  std::optional<double> kept_score;          ///< median score of the features kept
   stillpoint::DropCount moving, background;  ///< of this frame alone; empty where there are no labels
 };
 
@@ -90,6 +95,14 @@ inline void begin_record(const std::vector<cv::KeyPoint>& keypoints, stillpoint:
   record.summary.features = keypoints.size();
   record.summary.kept = 0;
   for (const std::uint8_t flag : keep) record.summary.kept += flag != 0 ? 1 : 0;
+}
+
+inline std::optional<double> median_kept_score(const std::vector<FeatureRow>& rows) {
+  std::vector<double> scores;
+  for (const FeatureRow& row : rows)
+    if (row.label.keep && std::isfinite(row.score)) scores.push_back(static_cast<double>(row.score));
+  if (scores.empty()) return std::nullopt;
+  return stillpoint::error_statistics(scores).median;
 }
 
 /// As boxes.txt has it: a column of a file.
@@ -143,6 +156,7 @@ void write_down(const stillpoint::FrameView& frame, const Filter& filter, const 
   summary.motion = result.motion();
   summary.timings = result.timings();
   summary.keep_floor_kept = result.keep_floor_kept();
+  if (judged) summary.kept_score = detail::median_kept_score(record.rows);
 }
 
 /// Writes down what the oracle read in the labels: it has no score, no motion, no regions and no stages.

@@ -7,8 +7,10 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <future>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -23,8 +25,8 @@
 #include "stillpoint/io/camera_file.hpp"
 #include "stillpoint/io/tum_sequence.hpp"
 #include "stillpoint/opencv.hpp"
+#include "stillpoint/synthetic/moving_day.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
-#include "stillpoint/synthetic/scenes.hpp"
 
 namespace stillpoint_run {
 
@@ -141,11 +143,14 @@ inline SourceFrame source_frame(const stillpoint::SyntheticFrame& rendered, bool
   return frame;
 }
 
-/// The synthetic scene of the library, with its exact truth.
+/// The synthetic scene of the library, with its exact truth. The next frame is rendered beside the work on this one.
 class DemoSource : public FrameSource {
  public:
   explicit DemoSource(const Options& options)
-      : sequence_(stillpoint::synthetic::demo()), wants_boxes_(options.prior == "boxes"), ground_truth_(true_path()) {}
+      : sequence_(stillpoint::synthetic::moving_day()),
+        end_(frame_end(options, sequence_.size())),
+        wants_boxes_(options.prior == "boxes"),
+        ground_truth_(true_path()) {}
 
   std::string name() const override { return "demo"; }
   std::optional<std::size_t> size() const override { return static_cast<std::size_t>(sequence_.size()); }
@@ -155,11 +160,24 @@ class DemoSource : public FrameSource {
 
   std::optional<SourceFrame> load(std::size_t index) override {
     if (index >= static_cast<std::size_t>(sequence_.size())) return std::nullopt;
-    sequence_.render(static_cast<int>(index), rendered_);
-    return source_frame(rendered_, wants_boxes_);
+    if (next_.valid() && next_index_ != index) next_.get();
+    SourceFrame frame = next_.valid() ? next_.get() : rendered(index);
+    next_index_ = index + 1;
+    if (next_index_ < end_) next_ = std::async(std::launch::async, [this] { return rendered(next_index_); });
+    return frame;
   }
 
  private:
+  static std::size_t frame_end(const Options& options, int size) {
+    const auto all = static_cast<std::size_t>(size);
+    return std::min(all, static_cast<std::size_t>(options.start) + static_cast<std::size_t>(options.frames));
+  }
+
+  SourceFrame rendered(std::size_t index) {
+    sequence_.render(static_cast<int>(index), buffer_);
+    return source_frame(buffer_, wants_boxes_);
+  }
+
   stillpoint::Trajectory true_path() const {
     const stillpoint::synthetic::Scene& scene = sequence_.scene();
     stillpoint::Trajectory path;
@@ -169,9 +187,12 @@ class DemoSource : public FrameSource {
   }
 
   stillpoint::SyntheticSequence sequence_;
-  stillpoint::SyntheticFrame rendered_;
+  std::size_t end_;                    ///< behind the last frame of the run
+  stillpoint::SyntheticFrame buffer_;  ///< used by one rendering at a time
   bool wants_boxes_;
   std::optional<stillpoint::Trajectory> ground_truth_;
+  std::size_t next_index_ = 0;
+  std::future<SourceFrame> next_;  ///< last: its destructor waits for what uses the others
 };
 
 }  // namespace stillpoint_run

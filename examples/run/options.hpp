@@ -30,8 +30,9 @@ namespace stillpoint_run {
 /// What a run was asked for, as it was given; `parse_options` has checked each value.
 struct Options : InputOptions {
   std::filesystem::path out = "stillpoint_out";
-  std::filesystem::path stages;  ///< options of the filter's stages; empty: as they come
-  bool calibrate = false;        ///< measures noise and writes options, in place of a run
+  std::filesystem::path save_video;  ///< empty: none
+  std::filesystem::path stages;      ///< options of the filter's stages; empty: as they come
+  bool calibrate = false;            ///< measures noise and writes options, in place of a run
   std::string depth_noise = "kinect";
   std::string policies = "default";
   std::string ego_motion = "default";
@@ -45,6 +46,8 @@ struct Options : InputOptions {
   bool is_synchronous = false;  ///< the network is waited for
   double drop_boxes = 0.0;      ///< share of the boxes that is left out
   std::string backend = "odometry";
+  std::vector<std::string> slam_parts_off;  ///< of multi-view, bundle, loops, semantics
+  bool maps_in_step = false;                ///< mapping is waited for
   int features = 1000;
   int start = 0;
   int frames = std::numeric_limits<int>::max();
@@ -64,6 +67,9 @@ struct Options : InputOptions {
   /// As reports have it: a network by the name of its file.
   std::string prior_name() const { return has_network() ? std::filesystem::path(prior).filename().string() : prior; }
 
+  bool slam_without(std::string_view part) const {
+    return std::find(slam_parts_off.begin(), slam_parts_off.end(), part) != slam_parts_off.end();
+  }
   bool prints_error(std::string_view name) const {
     for (const std::string& printed : as_printed)
       if (printed == name) return true;
@@ -123,6 +129,17 @@ inline CLI::Validator layout() {
       "");
 }
 
+/// The ending says which codec.
+inline CLI::Validator video_name() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::string ending = std::filesystem::path(text).extension().string();
+        if (ending == ".mp4" || ending == ".avi") return std::string();
+        return "found '" + text + "', expected a name that ends in .mp4 or .avi";
+      },
+      "");
+}
+
 /// What no single option can know.
 inline void require_consistent(const CLI::App& app, const Options& options) {
   const auto given = [&app](const char* name) { return app.count(name) > 0; };
@@ -161,8 +178,14 @@ inline void require_consistent(const CLI::App& app, const Options& options) {
   if (!options.has_network())
     for (const char* name : {"--detector-layout", "--classes", "--sync"})
       if (given(name)) throw stillpoint::Error(std::string(name) + ": found without a network, expected --prior MODEL");
+  if (options.backend != "slam")
+    for (const char* name : {"--slam-without", "--mapping-in-step"})
+      if (given(name))
+        throw stillpoint::Error(std::string(name) + ": found with --backend " + options.backend +
+                                ", expected --backend slam, whose part it is");
   if (options.calibrate)
-    for (const char* name : {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend"})
+    for (const char* name :
+         {"--policies", "--ego-motion", "--paper-as-printed", "--without", "--prior", "--backend", "--save-video"})
       if (given(name))
         throw stillpoint::Error(std::string(name) +
                                 ": found with --calibrate, which measures with the default policies and no tracker");
@@ -195,6 +218,10 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
   };
   detail::add_input_options(app, options);
   add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
+  add_path("--save-video", "OUT.mp4", options.save_video,
+           "the frames with what was decided of them and the trajectories beside, as a video: .mp4 or .avi")
+      ->check(detail::video_name())
+      ->default_str("");
   add_path(
       "--options", "FILE", options.stages,
       "options of the filter's stages, as an earlier run or --calibrate left them in options.yaml; what is said here "
@@ -255,8 +282,18 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
       ->type_name("SHARE")
       ->check(detail::number(0.0, 1.0, "0 to 1"));
   const CLI::Option* backend = detail::add_choice(
-      app, "--backend", options.backend, {"odometry", "klt", "orb", "none"},
-      "the tracker behind the filter; klt finds its points by a grid, not --features; without depth: none unless told");
+      app, "--backend", options.backend, {"odometry", "klt", "orb", "slam", "none"},
+      "the tracker behind the filter; slam keeps a map; klt finds its points by a grid, not --features; without depth: "
+      "none unless told");
+  app.add_option("--slam-without", options.slam_parts_off, "parts of the SLAM to switch off, commas between")
+      ->delimiter(',')
+      ->type_name("multi-view,bundle,loops,semantics")
+      ->check(detail::one_of({"multi-view", "bundle", "loops", "semantics"}, "multi-view, bundle, loops, semantics"))
+      ->default_str("");
+  app.add_flag(
+      "--mapping-in-step", options.maps_in_step,
+      "each frame waits for the SLAM's mapping: the same bytes in every run. Without it mapping has a thread of "
+      "its own");
   add_number("--features", options.features, 1, 100000, "ORB features a frame");
   add_number("--start", options.start, 0, most, "first frame, counted from 0");
   add_number("--frames", options.frames, 1, most, "frames at most")->default_str("all");
@@ -321,6 +358,10 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
                                               : "no"},
           {"--drop-boxes", shortest(options.drop_boxes)},
           {"--backend", options.backend},
+          {"--slam-without", options.backend == "slam" ? joined(options.slam_parts_off) : "n/a"},
+          {"--mapping-in-step", options.backend != "slam" ? "n/a"
+                                : options.maps_in_step    ? "yes"
+                                                          : "no"},
           {"--features", std::to_string(options.features)},
           {"--start", std::to_string(options.start)},
           {"--frames", all_frames ? "all" : std::to_string(options.frames)},

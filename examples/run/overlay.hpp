@@ -2,75 +2,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Frames with the filter's verdicts drawn on them: a dozen over the run, for the report.
+// Frames with the filter's verdicts drawn on them.
 
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "frame_record.hpp"
-#include "stillpoint/depth/depth_lookup.hpp"
-#include "stillpoint/depth/depth_noise.hpp"
-#include "stillpoint/match/lucas_kanade.hpp"
+#include "image_offsets.hpp"
 #include "words.hpp"
 
 namespace stillpoint_run {
-
-/// A drawn frame.
-struct Overlay {
-  std::vector<std::uint8_t> jpeg;
-  std::string caption;
-};
-
-/// How far each feature is from where it would be if it stood still, in the image. For the drawing alone: the filter's
-/// own matches are not public, so that this looks for the features again.
-class ImageOffsets {
- public:
-  /// Frames are kept for as long as a motion may refer back to them.
-  void remember(SourceFrame frame) {
-    constexpr std::size_t kLongestHistory = 16;
-    history_.push_back(std::move(frame));
-    if (history_.size() > kLongestHistory) history_.pop_front();
-  }
-
-  /// Pixels; NaN where a feature has no match, no depth, or the frame no motion.
-  std::vector<stillpoint::Vector2f> of(const SourceFrame& frame, const FrameRecord& record,
-                                       const stillpoint::Camera& camera) const {
-    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
-    std::vector<stillpoint::Vector2f> offsets(record.pixels.size(), {kNaN, kNaN});
-    const stillpoint::Motion& motion = record.summary.motion;
-    const auto reference = std::find_if(history_.begin(), history_.end(), [&motion](const SourceFrame& past) {
-      return past.timestamp_s == motion.reference_timestamp_s;
-    });
-    if (!motion.usable() || reference == history_.end()) return offsets;
-
-    stillpoint::Matches matches;
-    matches.begin(record.pixels);
-    stillpoint::LucasKanade().match(reference->view(), frame.view(), matches);
-    stillpoint::lift(reference->view(), stillpoint::RoundedDepth{}, camera, stillpoint::KinectNoise{},
-                     matches.reference);
-    for (std::size_t i = 0; i < offsets.size(); ++i) {
-      if (!matches.matched(i) || !matches.reference.has_depth(i)) continue;
-      const stillpoint::Vector3d standing = motion.current_from_reference * matches.reference.point[i];
-      if (!(standing.z() > 0)) continue;
-      offsets[i] = record.pixels[i] - camera.distort(camera.project(standing)).cast<float>();
-    }
-    return offsets;
-  }
-
- private:
-  std::deque<SourceFrame> history_;
-};
 
 namespace detail {
 
@@ -169,56 +116,10 @@ inline cv::Mat draw_overlay(const SourceFrame& frame, const FrameRecord& record,
   for (std::size_t i = 0; i < record.rows.size(); ++i) detail::draw_feature(image, record.rows[i], offsets_px[i]);
   const FrameSummary& summary = record.summary;
   detail::draw_text(image,
-                    stillpoint::format_fixed(summary.timestamp_s, 3) + " s  " + to_string(summary.status) + "  kept " +
+                    stillpoint::format_fixed(summary.time_s, 2) + " s  " + to_string(summary.status) + "  kept " +
                         std::to_string(summary.kept) + " of " + std::to_string(summary.features),
                     {8, image.rows - 10});
   return image;
 }
-
-/// Chooses a dozen frames, evenly over the run and the last among them, and keeps them drawn. Of a run whose end is not
-/// known: every second of them is given up when there are two dozen.
-class Gallery {
- public:
-  explicit Gallery(std::optional<std::size_t> frame_count) : frame_count_(frame_count) {}
-
-  /// Call it for each frame, in their order.
-  void show(const SourceFrame& frame, const FrameRecord& record, const stillpoint::Camera& camera) {
-    constexpr int kJpegQuality = 82;
-    if (!frame_count_ && overlays_.size() == 2 * kPictures) give_up_every_second();
-    if (is_chosen(next_++)) {
-      Overlay overlay;
-      cv::imencode(".jpg", draw_overlay(frame, record, offsets_.of(frame, record, camera)), overlay.jpeg,
-                   {cv::IMWRITE_JPEG_QUALITY, kJpegQuality});
-      const FrameSummary& summary = record.summary;
-      overlay.caption = "Frame " + std::to_string(next_) + ", " + stillpoint::format_fixed(summary.timestamp_s, 3) +
-                        " s, " + to_string(summary.status) + ": kept " + std::to_string(summary.kept) + " of " +
-                        count_words(summary.features, "feature");
-      overlays_.push_back(std::move(overlay));
-    }
-    offsets_.remember(frame);
-  }
-
-  const std::vector<Overlay>& overlays() const { return overlays_; }
-
- private:
-  static constexpr std::size_t kPictures = 12;
-
-  /// The last frame of each twelfth of the run, or of every so many frames.
-  bool is_chosen(std::size_t frame) const {
-    if (!frame_count_) return (frame + 1) % every_ == 0;
-    return (frame + 1) * kPictures / *frame_count_ > frame * kPictures / *frame_count_;
-  }
-
-  void give_up_every_second() {
-    for (std::size_t i = 0; i < kPictures; ++i) overlays_[i] = std::move(overlays_[2 * i + 1]);
-    overlays_.resize(kPictures);
-    every_ *= 2;
-  }
-
-  std::optional<std::size_t> frame_count_;
-  std::size_t every_ = 1, next_ = 0;
-  ImageOffsets offsets_;
-  std::vector<Overlay> overlays_;
-};
 
 }  // namespace stillpoint_run

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The plots of the report: what is drawn in each of them.
+// The plots of the report: what is drawn in each of them. Time is that since the first frame.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -12,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "explanations.hpp"
 #include "figures.hpp"
+#include "run_paths.hpp"
 #include "svg_plot.hpp"
 #include "words.hpp"
 
@@ -20,112 +23,94 @@ namespace stillpoint_run {
 
 namespace detail {
 
-using stillpoint::Pose;
-using stillpoint::Trajectory;
 using stillpoint::Vector2d;
-using stillpoint::Vector3d;
 
 inline constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
-
-/// Looks down on a path: to the right and ahead of where the camera looked first.
-class MapView {
- public:
-  /// The way up is the axis of the world nearest to the cameras' own: handheld cameras look down a little.
-  explicit MapView(const Trajectory& path) {
-    if (path.empty()) return;
-    Vector3d up = Vector3d::Zero();
-    for (const auto& pose : path) up -= pose.world_from_camera.linear().col(1);
-    Eigen::Index axis = 1;
-    up.cwiseAbs().maxCoeff(&axis);
-    const Vector3d vertical = Vector3d::Unit(axis) * (up[axis] < 0 ? -1.0 : 1.0);
-    const Vector3d sight = path.front().world_from_camera.linear().col(2);
-    ahead_ = sight - sight.dot(vertical) * vertical;
-    // Looking straight up or down, the picture's up is ahead.
-    if (!(ahead_.norm() > 0.1)) ahead_ = -path.front().world_from_camera.linear().col(1);
-    ahead_.normalize();
-    right_ = ahead_.cross(vertical);
-    origin_ = path.front().world_from_camera.translation();
-  }
-
-  Vector2d operator()(const Vector3d& position) const {
-    return {right_.dot(position - origin_), ahead_.dot(position - origin_)};
-  }
-
- private:
-  Vector3d right_ = Vector3d::UnitX(), ahead_ = Vector3d::UnitZ(), origin_ = Vector3d::Zero();
-};
-
-/// In the reference's world where the two could be aligned, else laid on its first pose.
-inline Trajectory in_reference(const RunRecord& run, const Trajectory& estimate, const TrajectoryFigures& figures) {
-  if (!run.ground_truth || run.ground_truth->empty()) return estimate;
-  if (figures.ate_rmse_m) return stillpoint::transformed(figures.absolute.alignment.target_from_source, estimate);
-  Trajectory moved = estimate;
-  for (auto& pose : moved)
-    pose.world_from_camera = run.ground_truth->front().world_from_camera * pose.world_from_camera;
-  return moved;
-}
 
 inline double seconds_of(const RunRecord& run, double timestamp_s) {
   return timestamp_s - run.frames.front().timestamp_s;
 }
 
-/// The part of the reference that was run through.
-inline Trajectory reference_path(const RunRecord& run) {
-  Trajectory path;
-  if (!run.ground_truth) return path;
-  constexpr double kMargin_s = 0.01;  // what still counts as the same moment
-  for (const auto& pose : *run.ground_truth)
-    if (pose.timestamp_s >= run.frames.front().timestamp_s - kMargin_s &&
-        pose.timestamp_s <= run.frames.back().timestamp_s + kMargin_s)
-      path.push_back(pose);
-  return path;
-}
-
 }  // namespace detail
 
-inline Plot map_plot(const RunRecord& run, const Figures& figures) {
+/// A map in two of the three axes: right (0), ahead (1), up (2).
+inline Plot map_plot(const std::vector<DrawnPath>& paths, std::array<int, 2> axes) {
+  const bool is_from_above = axes[0] == 0;
   Plot plot;
-  plot.title = "Trajectories from above";
-  plot.x_label = "to the right of the start, m";
-  plot.y_label = "ahead of the start, m";
-  plot.has_equal_scales = true;
-  const detail::Trajectory truth = detail::reference_path(run);
-  const detail::MapView from_above(truth.empty() ? run.filtered : truth);
-  const auto add = [&](const char* name, const char* css_class, const detail::Trajectory& path) {
-    Line line{name, css_class, {}};
-    for (const auto& pose : path) line.points.push_back(from_above(pose.world_from_camera.translation()));
-    if (!line.points.empty()) plot.lines.push_back(std::move(line));
-  };
-  add("without the filter", "unfiltered", detail::in_reference(run, run.unfiltered, figures.unfiltered));
-  add("with the filter", "filtered", detail::in_reference(run, run.filtered, figures.filtered));
-  add("reference", "truth", truth);
-  plot.description = truth.empty() ? "The camera's path with and without the filter; nobody knows the true one."
-                                   : "The camera's path with and without the filter, each laid on the reference.";
+  plot.title = is_from_above ? "Trajectories from above" : "Trajectories from the side";
+  plot.x_label = is_from_above ? "to the right of the start, m" : "ahead of the start, m";
+  plot.y_label = is_from_above ? "ahead of the start, m" : "up from the start, m";
+  plot.is_map = true;
+  plot.map_axes = axes;
+  bool has_reference = false;
+  for (const DrawnPath& path : paths) {
+    Line line{path.name, path.css_class, {}};
+    for (const stillpoint::Vector3d& point : path.points) line.points.emplace_back(point[axes[0]], point[axes[1]]);
+    has_reference = has_reference || line.css_class == "truth";
+    plot.lines.push_back(std::move(line));
+  }
+  plot.description = has_reference ? "The camera's path with and without the filter from the same start, laid on the "
+                                     "reference as the better one "
+                                     "fits it."
+                                   : "The camera's path with and without the filter; nobody knows the true one.";
   return plot;
 }
 
-inline Plot error_plot(const RunRecord& run, const Figures& figures) {
+namespace detail {
+
+inline Line error_line(const RunRecord& run, const char* name, const char* css_class,
+                       const stillpoint::TrajectoryErrors& errors, const std::vector<double>& values, double factor) {
+  Line line{name, css_class, {}};
+  for (std::size_t i = 0; i < errors.timestamps_s.size(); ++i)
+    line.points.emplace_back(seconds_of(run, errors.timestamps_s[i]), factor * values[i]);
+  return line;
+}
+
+/// The same plot of positions or of rotations.
+struct ErrorKind {
+  std::vector<double> stillpoint::TrajectoryErrors::*values;
+  double factor;
+  const char *noun, *y_label;
+};
+inline constexpr ErrorKind kPositions{&stillpoint::TrajectoryErrors::translation_m, 100.0, "position", "cm"};
+inline constexpr ErrorKind kRotations{&stillpoint::TrajectoryErrors::rotation_deg, 1.0, "rotation", "degrees"};
+
+}  // namespace detail
+
+inline Plot error_plot(const RunRecord& run, const Figures& figures, const detail::ErrorKind& kind) {
   Plot plot;
-  plot.title = "Position error over time";
+  plot.title = std::string("Error of ") + kind.noun;
   plot.x_label = "time, s";
-  plot.y_label = "distance from the reference, cm";
+  plot.y_label = std::string("from the reference, ") + kind.y_label;
+  plot.description = std::string("How far each pose's ") + kind.noun +
+                     " is from the reference's. Both trajectories start at the same pose and are laid on the reference "
+                     "as the better one fits it; the ATE aligns each by itself";
   const auto add = [&](const char* name, const char* css_class, const TrajectoryFigures& trajectory) {
-    const stillpoint::TrajectoryErrors& errors = trajectory.absolute.errors;
-    Line line{name, css_class, {}};
-    for (std::size_t i = 0; i < errors.timestamps_s.size(); ++i)
-      line.points.emplace_back(detail::seconds_of(run, errors.timestamps_s[i]), 100 * errors.translation_m[i]);
-    if (!line.points.empty()) plot.lines.push_back(std::move(line));
+    const stillpoint::TrajectoryErrors& errors = trajectory.drift;
+    const std::vector<double>& values = errors.*kind.values;
+    if (values.empty()) return;
+    plot.lines.push_back(detail::error_line(run, name, css_class, errors, values, kind.factor));
+    plot.description += std::string("; at most ") +
+                        stillpoint::format_fixed(kind.factor * *std::max_element(values.begin(), values.end()), 1) +
+                        ' ' + kind.y_label + ' ' + name;
   };
   add("without the filter", "unfiltered", figures.unfiltered);
   add("with the filter", "filtered", figures.filtered);
-  plot.description = "After alignment with the reference";
-  const auto worst = [](const TrajectoryFigures& trajectory) {
-    const auto& errors = trajectory.absolute.errors.translation_m;
-    return length_words(*std::max_element(errors.begin(), errors.end()));
-  };
-  if (figures.filtered.ate_rmse_m) plot.description += "; at most " + worst(figures.filtered) + " with the filter";
-  if (figures.unfiltered.ate_rmse_m) plot.description += "; at most " + worst(figures.unfiltered) + " without";
   plot.description += '.';
+  return plot;
+}
+
+/// Where nobody knows the truth: how far filtered and unfiltered part.
+inline Plot divergence_plot(const RunRecord& run, const Figures& figures, const detail::ErrorKind& kind) {
+  Plot plot;
+  plot.title = std::string("Filtered and unfiltered part: ") + kind.noun;
+  plot.x_label = "time, s";
+  plot.y_label = std::string("apart, ") + kind.y_label;
+  plot.lines.push_back(
+      detail::error_line(run, "apart", "filtered", figures.divergence, figures.divergence.*kind.values, kind.factor));
+  plot.description =
+      "Difference of the two trajectories, which start at the same pose. There is no reference: which of them is "
+      "right, this can't tell.";
   return plot;
 }
 
@@ -143,12 +128,14 @@ inline Plot kept_plot(const RunRecord& run, const Figures& figures) {
                                  ? 100.0 * static_cast<double>(frame.kept) / static_cast<double>(frame.features)
                                  : detail::kGap);
   plot.lines.push_back(std::move(line));
-  plot.description = "Marks below the line: frames whose status is not ok, and frames with a warning.";
+  plot.description =
+      "How many of the features the tracker gets. Marks below the line: frames whose status is not ok, and frames with "
+      "a warning.";
 
   std::size_t kinds = 0;
-  const auto mark = [&](const std::string& name, std::size_t frames, const auto& has_it) {
+  const auto mark = [&](const std::string& name, const char* meaning, std::size_t frames, const auto& has_it) {
     const std::string css_class = "mark" + std::to_string(std::min<std::size_t>(kinds++, 3));
-    plot.mark_names.emplace_back(css_class, name + ": " + count_words(frames, "frame"));
+    plot.mark_names.push_back({css_class, name + ": " + count_words(frames, "frame"), meaning});
     bool had_it = false;
     for (const FrameSummary& frame : run.frames) {
       const double time_s = detail::seconds_of(run, frame.timestamp_s);
@@ -162,9 +149,10 @@ inline Plot kept_plot(const RunRecord& run, const Figures& figures) {
   };
   for (const auto& [status, frames] : figures.statuses)
     if (status != stillpoint::Status::ok)
-      mark(to_string(status), frames, [found = status](const FrameSummary& frame) { return frame.status == found; });
+      mark(to_string(status), explained(status), frames,
+           [found = status](const FrameSummary& frame) { return frame.status == found; });
   for (const auto& [warning, frames] : figures.warnings)
-    mark(to_string(warning), frames,
+    mark(to_string(warning), explained(warning), frames,
          [found = warning](const FrameSummary& frame) { return frame.warnings.has(found); });
   return plot;
 }
@@ -219,11 +207,15 @@ inline Plot label_plot(const RunRecord& run) {
   return plot;
 }
 
-/// All plots that have something to show.
+/// All plots over time that have something to show.
 inline std::vector<Plot> report_plots(const RunRecord& run, const Figures& figures) {
   std::vector<Plot> plots;
-  if (!run.filtered.empty() || !run.unfiltered.empty()) plots.push_back(map_plot(run, figures));
-  if (figures.filtered.ate_rmse_m || figures.unfiltered.ate_rmse_m) plots.push_back(error_plot(run, figures));
+  for (const detail::ErrorKind& kind : {detail::kPositions, detail::kRotations}) {
+    if (figures.filtered.ate_rmse_m || figures.unfiltered.ate_rmse_m)
+      plots.push_back(error_plot(run, figures, kind));
+    else if (!run.ground_truth && !figures.divergence.timestamps_s.empty())
+      plots.push_back(divergence_plot(run, figures, kind));
+  }
   plots.push_back(kept_plot(run, figures));
   if (run.has_labels) plots.push_back(label_plot(run));
   if (run.has_stages) plots.push_back(time_plot(run));

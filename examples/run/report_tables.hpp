@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "explanations.hpp"
 #include "figures.hpp"
 #include "html.hpp"
 #include "options.hpp"
@@ -33,8 +34,10 @@ class Table {
     html_ += "</tr></thead><tbody>";
   }
 
-  Table& row(const std::string& name, std::initializer_list<std::string> cells) {
-    html_ += "<tr><th scope=\"row\">" + escaped(name) + "</th>";
+  /// @param meaning  one sentence that stands below the name
+  Table& row(const std::string& name, std::initializer_list<std::string> cells, const std::string& meaning = "") {
+    html_ += "<tr><th scope=\"row\">" + escaped(name) +
+             (meaning.empty() ? "" : "<small>" + escaped(meaning) + "</small>") + "</th>";
     for (const std::string& cell : cells) html_ += cell_ + escaped(cell) + "</td>";
     html_ += "</tr>";
     return *this;
@@ -59,36 +62,54 @@ inline std::string count_or_none(const std::optional<std::size_t>& value) {
 
 inline std::string trajectory_table(const Figures& figures) {
   Table table("Trajectory", {"", "with the filter", "without"});
-  const auto row = [&](const char* name, int decimals, double factor, auto&& read) {
-    table.row(name, {fixed_or_none(read(figures.filtered), decimals, factor),
-                     fixed_or_none(read(figures.unfiltered), decimals, factor)});
+  const auto row = [&](const char* name, const char* meaning, int decimals, double factor, auto&& read) {
+    table.row(name,
+              {fixed_or_none(read(figures.filtered), decimals, factor),
+               fixed_or_none(read(figures.unfiltered), decimals, factor)},
+              meaning);
   };
-  row("ATE, RMSE, cm", 2, 100, [](const TrajectoryFigures& t) { return t.ate_rmse_m; });
-  row("RPE over a frame, RMSE, mm", 2, 1000, [](const TrajectoryFigures& t) { return t.rpe_frame.translation_m; });
-  row("RPE over a frame, RMSE, degrees", 3, 1, [](const TrajectoryFigures& t) { return t.rpe_frame.rotation_deg; });
-  row("RPE over a second, RMSE, cm", 2, 100, [](const TrajectoryFigures& t) { return t.rpe_second.translation_m; });
-  row("RPE over a second, RMSE, degrees", 3, 1, [](const TrajectoryFigures& t) { return t.rpe_second.rotation_deg; });
-  table.row("frames without a pose", {count_or_none(figures.filtered.frames_without_pose),
-                                      count_or_none(figures.unfiltered.frames_without_pose)});
+  constexpr char kAte[] =
+      "absolute trajectory error: distance from the reference after one rigid alignment, poses paired by nearest time "
+      "within 10 ms";
+  constexpr char kRpe[] = "relative pose error: difference of the motion over this time from the reference's";
+  row("ATE, RMSE, cm", kAte, 2, 100, [](const TrajectoryFigures& t) { return t.ate_rmse_m; });
+  row("RPE over a frame, RMSE, mm", kRpe, 2, 1000,
+      [](const TrajectoryFigures& t) { return t.rpe_frame.translation_m; });
+  row("RPE over a frame, RMSE, degrees", "", 3, 1, [](const TrajectoryFigures& t) { return t.rpe_frame.rotation_deg; });
+  row("RPE over a second, RMSE, cm", "", 2, 100, [](const TrajectoryFigures& t) { return t.rpe_second.translation_m; });
+  row("RPE over a second, RMSE, degrees", "", 3, 1,
+      [](const TrajectoryFigures& t) { return t.rpe_second.rotation_deg; });
+  table.row(
+      "frames without a pose",
+      {count_or_none(figures.filtered.frames_without_pose), count_or_none(figures.unfiltered.frames_without_pose)},
+      "the tracker was lost");
   table.row("improvement of the ATE, %", {fixed_or_none(figures.improvement_percent, 1), ""});
+  table.row("furthest apart, cm", {fixed_or_none(figures.divergence_max_m, 1, 100), ""},
+            "of the filtered and the unfiltered trajectory, which start at the same pose");
   return table.html();
 }
 
 inline std::string label_table(const RunRecord& run) {
   const stillpoint::FilterScore& score = run.labels;
   Table table("Features by label, all frames after the first", {"", "features", "dropped", "share, %"});
-  const auto row = [&table](const char* name, const stillpoint::DropCount& count) {
+  const auto row = [&table](const char* name, const stillpoint::DropCount& count, const char* meaning) {
     table.row(name,
-              {std::to_string(count.features), std::to_string(count.dropped), fixed_or_none(count.share(), 1, 100)});
+              {std::to_string(count.features), std::to_string(count.dropped), fixed_or_none(count.share(), 1, 100)},
+              meaning);
   };
-  row("on what moves (recall)", score.moving());
-  row("on the background (false positives)", score.background());
-  row("on movers at rest", score.parked());
+  row("on what moves (recall)", score.moving(), "should be dropped: 100 % is right");
+  row("on the background (false positives)", score.background(), "should be kept: 0 % is right");
+  row("on movers at rest", score.parked(), "either is right");
   return table.html();
 }
 
 inline std::string time_table(const Figures& figures) {
   Table table("Time a frame, ms", {"", "median", "95 % below", "maximum"});
+  const auto meaning_of = [](const std::string& name) -> std::string {
+    for (std::size_t s = 0; s < stillpoint::kStageCount; ++s)
+      if (const auto stage = static_cast<stillpoint::Stage>(s); name == to_string(stage)) return explained(stage);
+    return "";
+  };
   for (const StageTime& stage : figures.times) {
     const auto value = [&stage](double Spread::*member) {
       return stage.ms ? stillpoint::format_fixed((*stage.ms).*member, 3) : std::string("n/a");
@@ -97,7 +118,7 @@ inline std::string time_table(const Figures& figures) {
                              : stage.name == "extract" ? "beside it: ORB features"
                              : stage.name == "track"   ? "beside it: tracking"
                                                        : stage.name;
-    table.row(name, {value(&Spread::median), value(&Spread::p95), value(&Spread::max)});
+    table.row(name, {value(&Spread::median), value(&Spread::p95), value(&Spread::max)}, meaning_of(stage.name));
   }
   return table.html();
 }
@@ -123,14 +144,15 @@ inline std::string detector_table(const Options& options, const DetectorRecord& 
 
 inline std::string status_table(const Figures& figures) {
   Table table("Status of the frames", {"status", "frames"});
-  for (const auto& [status, frames] : figures.statuses) table.row(to_string(status), {std::to_string(frames)});
+  for (const auto& [status, frames] : figures.statuses)
+    table.row(to_string(status), {std::to_string(frames)}, explained(status));
   for (const auto& [warning, frames] : figures.warnings)
-    table.row(std::string("warning: ") + to_string(warning), {std::to_string(frames)});
+    table.row(std::string("warning: ") + to_string(warning), {std::to_string(frames)}, explained(warning));
   return table.html();
 }
 
 inline std::string settings_table(const Options& options) {
-  Table table("Settings of this run", {"option", "value"}, false);
+  Table table("Settings of this run (stillpoint_run --help explains them)", {"option", "value"}, false);
   for (const auto& [name, value] : settings(options)) table.row(name, {value});
   return table.html();
 }

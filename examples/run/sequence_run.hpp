@@ -24,13 +24,15 @@
 #include "frame_source.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
-#include "overlay.hpp"
+#include "picture_roll.hpp"
 #include "progress.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/null_filter.hpp"
 #include "stillpoint/verdict/keep_flags.hpp"
+#include "video_file.hpp"
+#include "video_frame.hpp"
 
 namespace stillpoint_run {
 
@@ -66,6 +68,18 @@ inline void append_pose(const std::optional<stillpoint::Pose>& pose, double time
   if (pose) trajectory.push_back({timestamp_s, *pose});
 }
 
+inline std::vector<stillpoint::Detection> detections(const FrameRecord& record) {
+  std::vector<stillpoint::Detection> result;
+  for (const RegionRow& row : record.regions) result.push_back(row.region.detection);
+  return result;
+}
+
+/// The poses as a map has them in the end take the place of those that were known at the time.
+inline stillpoint::Trajectory adjusted(AnyTracker& tracker, const stillpoint::Trajectory& live) {
+  const std::optional<stillpoint::Trajectory> by_map = tracker.trajectory();
+  return by_map ? *by_map : live;
+}
+
 /// Poses as the files have them: the camera of the run's first frame is the world, if that frame has a pose.
 inline void begin_at_identity(stillpoint::Trajectory& trajectory) {
   if (trajectory.empty()) return;
@@ -80,8 +94,9 @@ inline void begin_at_identity(stillpoint::Trajectory& trajectory) {
 struct RunOutput {
   FeaturesFile& features;
   FramesFile& frames;
+  PictureRoll& pictures;
+  VideoFile* video;    ///< null where nobody asked for one
   MoversFile* movers;  ///< null: not wanted
-  Gallery& gallery;
 };
 
 /// How many frames the options ask for; empty where only the source's end tells.
@@ -121,6 +136,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
         " m is assumed (baseline_m in camera.yaml).");
   run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
   const auto class_name = [&detector](int index) { return detector.class_name(index); };
+  VideoFrame drawing(source.camera());
   FrameRecord record;
   stillpoint::ImageBuffer predicted_mask;
   std::vector<std::uint8_t> under_no_mask;
@@ -134,8 +150,11 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     if (run.has_labels) detail::predict_mask(filtered.filter, frame.timestamp_s, predicted_mask);
     record.summary = FrameSummary{};
     record.summary.timestamp_s = frame.timestamp_s;
+    record.summary.time_s =
+        frame.timestamp_s - (run.frames.empty() ? frame.timestamp_s : run.frames.front().timestamp_s);
     const auto pose = filtered.track(view, [&](const std::vector<cv::KeyPoint>& keypoints, const auto& result) {
       write_down(view, filtered.filter, keypoints, result, class_name, record);
+      filtered.backend.expect_detections(detail::detections(record));
     });
     record.summary.extract_ms = filtered.backend.extract_ms;
     record.summary.track_ms = filtered.backend.track_ms;
@@ -152,7 +171,8 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     output.features.write(record);
     output.frames.write(record.summary);
     if (output.movers != nullptr) output.movers->write(record);
-    output.gallery.show(frame, record, source.camera());
+    output.pictures.add(frame, record, source.camera());
+    if (output.video != nullptr) output.video->write(drawing.draw(frame, record, run), record.summary.time_s);
     run.frames.push_back(record.summary);
     progress.frame_done();
     run.was_interrupted = was_interrupted();
@@ -162,8 +182,12 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than the number of " +
                             "frames of " + run.sequence);
   run.detector = detector.finish();
-  detail::begin_at_identity(run.filtered);
-  detail::begin_at_identity(run.unfiltered);
+  run.map = filtered.backend.map_files();
+  run.live = run.filtered;
+  run.filtered = detail::adjusted(filtered.backend, run.filtered);
+  run.unfiltered = detail::adjusted(unfiltered.backend, run.unfiltered);
+  for (stillpoint::Trajectory* trajectory : {&run.filtered, &run.unfiltered, &run.live})
+    detail::begin_at_identity(*trajectory);
   return run;
 }
 

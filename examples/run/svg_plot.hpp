@@ -5,11 +5,12 @@
 // Line plots as SVG. Colours and dashes are the page's (CSS classes), so that they follow its light and dark scheme.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "html.hpp"
@@ -31,6 +32,11 @@ struct Mark {
   double x_begin = 0.0, x_end = 0.0;
 };
 
+/// A mark in the legend.
+struct MarkName {
+  std::string css_class, name, meaning;
+};
+
 /// One plot. Lines in front are drawn last.
 struct Plot {
   std::string title;             ///< above it, and the name a screen reader says
@@ -38,10 +44,11 @@ struct Plot {
   std::string x_label, y_label;  ///< with units
   std::vector<Line> lines;
   std::vector<Mark> marks;
-  std::vector<std::pair<std::string, std::string>> mark_names;  ///< css class and name, for the legend
-  bool is_stacked = false;                                      ///< lines are heights of areas, one upon the other
-  bool has_equal_scales = false;  ///< a map: a metre is as long in both directions; else y begins at 0
-  double y_at_least = 0.0;        ///< the y axis reaches at least here
+  std::vector<MarkName> mark_names;
+  bool is_stacked = false;               ///< lines are heights of areas, one upon the other
+  bool is_map = false;                   ///< a metre is as long in both directions; else x is time, and y begins at 0
+  std::array<int, 2> map_axes = {0, 1};  ///< of a map: which of right (0), ahead (1), up (2) are x and y
+  double y_at_least = 0.0;               ///< the y axis reaches at least here
 };
 
 namespace detail {
@@ -93,11 +100,11 @@ class PlotDrawing {
       x_.include(mark.x_begin);
       x_.include(mark.x_end);
     }
-    if (!plot.has_equal_scales) y_.include(0.0);
+    if (!plot.is_map) y_.include(0.0);
     if (plot.y_at_least > 0) y_.include(plot.y_at_least);
     x_.settle();
     y_.settle();
-    if (plot.has_equal_scales)
+    if (plot.is_map)
       equalise();
     else
       y_.high += y_.high > plot.y_at_least ? 0.05 * (y_.high - y_.low) : 0.0;
@@ -105,12 +112,13 @@ class PlotDrawing {
   }
 
   std::string svg() const {
-    std::string out = "<svg viewBox=\"0 0 " + number(kWidth) + ' ' + number(kHeight) + "\" role=\"img\" aria-label=\"" +
-                      escaped(plot_.title + ". " + plot_.description) + "\">";
+    std::string out = "<svg class=\"chart\" viewBox=\"0 0 " + number(kWidth) + ' ' + number(kHeight) + "\"" + scales() +
+                      " role=\"img\" aria-label=\"" + escaped(plot_.title + ". " + plot_.description) + "\">";
     draw_grid(out);
     for (std::size_t i = 0; i < heights_.size(); ++i)
       plot_.is_stacked ? draw_area(out, i) : draw_line(out, heights_[i]);
     draw_marks(out);
+    draw_now(out);
     return out + "</svg>";
   }
 
@@ -119,6 +127,29 @@ class PlotDrawing {
 
   double x_at(double x) const { return kLeft + (x - x_.low) / (x_.high - x_.low) * (kRight - kLeft); }
   double y_at(double y) const { return bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - kTop); }
+
+  /// For the page's script: from pixels to values and back.
+  std::string scales() const {
+    const auto list = [](std::initializer_list<double> values) {
+      std::string text;
+      for (const double value : values) text += (text.empty() ? "" : " ") + stillpoint::format_fixed(value, 5);
+      return text;
+    };
+    return std::string(" data-kind=\"") + (plot_.is_map ? "map" : "time") + "\" data-x=\"" +
+           list({x_.low, x_.high, kLeft, kRight}) + "\" data-y=\"" + list({y_.low, y_.high, bottom_, kTop}) +
+           "\" data-axes=\"" + std::to_string(plot_.map_axes[0]) + ' ' + std::to_string(plot_.map_axes[1]) + "\"";
+  }
+
+  /// The moment that the page shows: the script moves it.
+  void draw_now(std::string& out) const {
+    if (!plot_.is_map) {
+      out += "<path class=\"now\" visibility=\"hidden\" d=\"M0 " + number(kTop) + 'V' + number(bottom_) + "\"/>";
+      return;
+    }
+    for (const Line& line : plot_.lines)
+      out += "<circle class=\"now now_" + line.css_class + "\" data-path=\"" + line.css_class +
+             "\" visibility=\"hidden\" r=\"5.5\"/>";
+  }
 
   /// Heights as they are drawn: of a stack, the sums.
   static std::vector<Line> stack(const Plot& plot) {
@@ -210,14 +241,16 @@ class PlotDrawing {
 /// The plot with its title, legend and caption as an HTML figure.
 inline std::string figure_of(const Plot& plot) {
   std::string legend;
-  const auto entry = [&legend](const std::string& picture, const std::string& name) {
-    legend += "<li><svg viewBox=\"0 0 30 14\" aria-hidden=\"true\">" + picture + "</svg>" + escaped(name) + "</li>";
+  const auto entry = [&legend](const std::string& picture, const std::string& name, const std::string& meaning) {
+    legend += "<li><svg viewBox=\"0 0 30 14\" aria-hidden=\"true\">" + picture + "</svg><span>" + escaped(name) +
+              (meaning.empty() ? "" : "<small>" + escaped(meaning) + "</small>") + "</span></li>";
   };
   for (const Line& line : plot.lines)
     entry(plot.is_stacked ? "<path class=\"area " + line.css_class + "\" d=\"M4 0h22v14h-22Z\"/>"
                           : "<path class=\"line " + line.css_class + "\" d=\"M1 7h28\"/>",
-          line.name);
-  for (const auto& [css_class, name] : plot.mark_names) entry(detail::mark_shape(css_class, 15, 7), name);
+          line.name, "");
+  for (const MarkName& mark : plot.mark_names)
+    entry(detail::mark_shape(mark.css_class, 15, 7), mark.name, mark.meaning);
   return "<figure class=\"plot\"><h3>" + escaped(plot.title) + "</h3>" + detail::PlotDrawing(plot).svg() +
          "<ul class=\"legend\">" + legend + "</ul><figcaption>" + escaped(plot.description) +
          "</figcaption></figure>\n";

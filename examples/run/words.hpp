@@ -45,8 +45,10 @@ inline std::string trajectory_words(const RunRecord& run, const Figures& figures
            length_words(*without) + ".";
   if (with) return "With the filter the trajectory is off by " + length_words(*with) + ".";
   if (without) return "Without the filter the trajectory is off by " + length_words(*without) + ".";
-  return run.ground_truth ? "There are too few poses to compare the trajectories with the reference."
-                          : "There is no reference, so that nobody knows how far the trajectory is off.";
+  if (run.ground_truth) return "There are too few poses to compare the trajectories with the reference.";
+  const std::string unknown = "There is no reference, so that nobody knows how far the trajectory is off";
+  if (!figures.divergence_max_m) return unknown + ".";
+  return unknown + "; with and without the filter it parts by up to " + length_words(*figures.divergence_max_m) + ".";
 }
 
 inline std::string label_words(const RunRecord& run) {

@@ -186,10 +186,10 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches.current.depth_m);
     });
-    if constexpr (!std::is_same_v<MoversOf<Policies>, NoMovers>)  // which then costs nothing, not even a look at the clock
-      timings.run(Stage::movers, [&] {
-        movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_);
-      });
+    if constexpr (!std::is_same_v<MoversOf<Policies>,
+                                  NoMovers>)  // which then costs nothing, not even a look at the clock
+      timings.run(Stage::movers,
+                  [&] { movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_); });
     result_.warnings_ = motion.warnings;
     if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
     return motion.status;

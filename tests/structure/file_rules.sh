@@ -11,7 +11,7 @@ longest=300  # lines; a header that passes it is two
 declare -A longest_example=([01_minimal]=40 [02_opencv_tracker]=110 [03_custom_stage]=150 [04_movers]=40)  # they are to be read
 
 folders=()
-for folder in include tests examples bench cmake shim .ci; do
+for folder in include tests examples bench cmake shim python .ci; do
   [[ ! -d $folder ]] || folders+=("$folder")
 done
 

@@ -24,6 +24,7 @@ TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
                            "--video",
                            "--fps",
                            "--out",
+                           "--save-video",
                            "--camera",
                            "--options",
                            "--calibrate",
@@ -40,6 +41,8 @@ TEST(StillpointRunArguments, HelpListsThemAndSucceeds) {
                            "--sync",
                            "--drop-boxes",
                            "--backend",
+                           "--slam-without",
+                           "--mapping-in-step",
                            "--features",
                            "--start",
                            "--frames",
@@ -69,7 +72,11 @@ TEST(StillpointRunArguments, WordsThatAreNotOffered) {
   expect_error("--demo --ego-motion imu", {"--ego-motion", "found 'imu'", "expected one of default, rigid, epipolar"});
   expect_error("--demo --depth-noise none", {"--depth-noise", "found 'none'", "expected one of kinect, stereo, tof"});
   expect_error("--demo --prior lables", {"--prior", "found 'lables'", "expected one of none, boxes, labels"});
-  expect_error("--demo --backend slam", {"--backend", "found 'slam'", "expected one of odometry, klt, orb, none"});
+  expect_error("--demo --backend map", {"--backend", "found 'map'", "expected one of odometry, klt, orb, slam, none"});
+  expect_error("--demo --backend slam --slam-without maps",
+               {"--slam-without", "found 'maps'", "expected one of multi-view, bundle, loops, semantics"});
+  expect_error("--demo --slam-without loops", {"--slam-without", "found with --backend odometry"});
+  expect_error("--demo --backend orb --mapping-in-step", {"--mapping-in-step", "expected --backend slam"});
   expect_error("--demo --paper-as-printed eq3,eq4",
                {"--paper-as-printed", "found 'eq4'", "expected one of eq3, eq8, unit-t"});
 }
@@ -106,7 +113,7 @@ TEST(StillpointRunArguments, ThatContradictEachOther) {
 }
 
 TEST(StillpointRunArguments, StartBeyondTheLastFrame) {
-  expect_error("--demo --start 100000", {"--start", "found 100000", "expected less than 60"});
+  expect_error("--demo --start 100000", {"--start", "found 100000", "expected less than 150"});
 }
 
 TEST(StillpointRunArguments, OutThatIsAFile) {

@@ -24,8 +24,8 @@ namespace stillpoint {
 class MoverReport {
  public:
   template <class Camera>
-  static void write(std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features,
-                    const Regions& regions, Movers& result, Workspace& workspace) {
+  static void write(std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features, const Regions& regions,
+                    Movers& result, Workspace& workspace) {
     const Workspace::Scope scope(workspace);
     const Matches& matches = features.matches;
     take_in_depthless(features, workspace);
@@ -97,9 +97,9 @@ class MoverReport {
     for (std::size_t i = 0; i < features.matches.size(); ++i)
       if (features.object_of[i] == index)
         for (std::size_t r = 0; r < held.size(); ++r)
-          held[r] += regions.detections[r].holds(features.matches.current.pixel[i], features.matches.current.depth_m[i]);
-    const std::size_t best =
-        static_cast<std::size_t>(std::max_element(held.begin(), held.end()) - held.begin());
+          held[r] +=
+              regions.detections[r].holds(features.matches.current.pixel[i], features.matches.current.depth_m[i]);
+    const std::size_t best = static_cast<std::size_t>(std::max_element(held.begin(), held.end()) - held.begin());
     if (2 * held[best] < mover.pixel_count) return;
     mover.class_index = regions.detections[best].class_index;
     mover.confidence = regions.detections[best].confidence;
@@ -122,8 +122,7 @@ class MoverReport {
     const span<Vector2f> pixels = workspace.take<Vector2f>(object.points.size(), Vector2f::Zero());
     std::size_t count = 0;
     for (const Vector3d& point : object.points)
-      if (point.z() > kNearest_m)
-        pixels[count++] = camera.distort(camera.project(point)).template cast<float>();
+      if (point.z() > kNearest_m) pixels[count++] = camera.distort(camera.project(point)).template cast<float>();
     return box_of(pixels.first(count));
   }
 };

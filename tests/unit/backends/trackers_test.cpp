@@ -142,7 +142,7 @@ TEST(OrbOdometry, KeepsItsBudgetOfFeatures) {
   Room room;
   for (const int features : {50, 300}) {
     OrbOdometry::Options options;
-    options.features = features;
+    options.orb.features = features;
     OrbOdometry odometry(room.sequence.camera(), options);
     const examples::OrbFeatures found = odometry.extract(room.view(0));
     EXPECT_EQ(found.keypoints.size(), static_cast<std::size_t>(features));

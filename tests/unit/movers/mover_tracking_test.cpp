@@ -65,8 +65,11 @@ struct SceneRun {
     std::vector<TrueObject> objects;
     for (int f = 0; f < sequence.size(); ++f) {
       sequence.render(f, frame);
-      frames.push_back({as_mat(frame.gray.view()).clone(), as_mat(frame.depth.view()).clone(), frame.depth_factor,
-                        frame.timestamp_s, {}});
+      frames.push_back({as_mat(frame.gray.view()).clone(),
+                        as_mat(frame.depth.view()).clone(),
+                        frame.depth_factor,
+                        frame.timestamp_s,
+                        {}});
       std::vector<cv::KeyPoint>& keypoints = frames.back().keypoints;
       orb->detect(frames.back().gray, keypoints);
       objects.clear();

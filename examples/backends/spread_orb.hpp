@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// ORB corners spread over the image.
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/features2d.hpp>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "orb_features.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/opencv.hpp"
+
+namespace examples {
+
+/// Detects ORB corners and takes the best of each place.
+class SpreadOrb {
+ public:
+  struct Options {
+    int features = 1000;
+    int candidates = 4;      ///< times as many corners are detected, of which the best of each place are taken
+    int fast_threshold = 7;  ///< gray values by which a corner differs from what surrounds it
+    int cell_px = 32;        ///< side of a place
+  };
+  Options options;
+
+  explicit SpreadOrb(const Options& settings)
+      : options(settings),
+        orb_(cv::ORB::create(settings.features * settings.candidates, 1.2f, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31,
+                             settings.fast_threshold)) {}
+
+  OrbFeatures extract(const stillpoint::FrameView& frame) {
+    const cv::Mat gray = stillpoint::as_mat(stillpoint::with_gray(frame, gray_).gray);
+    OrbFeatures features;
+    orb_->detect(gray, features.keypoints);
+    spread(gray.size(), features.keypoints);
+    orb_->compute(gray, features.keypoints, features.descriptors);
+    return features;
+  }
+
+ private:
+  /// The strongest corner of each place first, then the second of each, until there are enough: where the texture is
+  /// richest, on a poster or a shirt, there are no more of them than elsewhere.
+  void spread(const cv::Size& size, std::vector<cv::KeyPoint>& keypoints) const {
+    std::stable_sort(keypoints.begin(), keypoints.end(),
+                     [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.response > b.response; });
+    const int columns = size.width / options.cell_px + 1, rows = size.height / options.cell_px + 1;
+    std::vector<int> count(static_cast<std::size_t>(columns * rows), 0);
+    std::vector<std::pair<int, std::size_t>> rank;
+    for (std::size_t i = 0; i < keypoints.size(); ++i) {
+      const int column = static_cast<int>(keypoints[i].pt.x) / options.cell_px;
+      const int row = static_cast<int>(keypoints[i].pt.y) / options.cell_px;
+      rank.emplace_back(count[static_cast<std::size_t>(row * columns + column)]++, i);
+    }
+    std::sort(rank.begin(), rank.end());
+    rank.resize(std::min(rank.size(), static_cast<std::size_t>(options.features)));
+    std::vector<cv::KeyPoint> taken;
+    for (const auto& entry : rank) taken.push_back(keypoints[entry.second]);
+    std::stable_sort(taken.begin(), taken.end(),
+                     [](const cv::KeyPoint& a, const cv::KeyPoint& b) { return a.octave < b.octave; });
+    keypoints = std::move(taken);
+  }
+
+  cv::Ptr<cv::ORB> orb_;
+  stillpoint::ImageBuffer gray_;
+};
+
+}  // namespace examples

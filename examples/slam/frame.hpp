@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A frame as tracking and mapping see it: features, where they lie, how far they are, and what of the map they show.
+
+#include <opencv2/core/matx.hpp>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "../backends/orb_features.hpp"
+#include "feature_grid.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
+
+namespace examples::slam {
+
+using stillpoint::Pose;
+using stillpoint::Vector2d;
+using stillpoint::Vector3d;
+
+using KeyframeId = int;
+using PointId = int;
+constexpr int kNone = -1;
+
+/// A thing that a detector has seen: part of what a place looks like.
+struct SeenThing {
+  int class_index = 0;
+  double u = 0.0, v = 0.0;  ///< centre, as shares of the image's width and height
+};
+
+struct Frame {
+  double timestamp_s = 0.0;
+  OrbFeatures features;
+  std::vector<Vector2d> pixel;         ///< undistorted
+  std::vector<double> depth_m;         ///< 0 where there is none
+  std::vector<PointId> point;          ///< of the map, kNone where none was found
+  std::vector<cv::Vec3b> colour;       ///< BGR
+  std::vector<std::uint8_t> deviates;  ///< 1: it shows a point where the map says that it can't be
+  std::vector<SeenThing> things;
+  FeatureGrid grid;
+  Pose camera_from_world = Pose::Identity();
+
+  std::size_t size() const { return pixel.size(); }
+  int octave(int feature) const { return features.keypoints[static_cast<std::size_t>(feature)].octave; }
+  const std::uint8_t* descriptor(int feature) const { return features.descriptors.ptr(feature); }
+};
+
+struct Keyframe : Frame {
+  KeyframeId id = kNone;
+};
+
+/// Size of a pixel of a level of ORB's pyramid.
+inline double octave_scale(int octave) { return std::pow(1.2, octave); }
+inline double octave_at(double scale) { return std::log(scale) / std::log(1.2); }
+
+/// How wrong a feature's pixel and depth are, one standard deviation.
+struct MeasurementNoise {
+  double pixel_sigma = 0.7;         ///< at full size
+  double depth_sigma_factor = 3.0;  ///< times KinectNoise: depth and colour are not taken at the same moment
+  stillpoint::KinectNoise depth_noise;
+
+  double pixel(int octave) const { return pixel_sigma * octave_scale(octave); }
+  double depth_m(double metres) const { return depth_sigma_factor * depth_noise.sigma(metres); }
+};
+
+}  // namespace examples::slam

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Do two places show the same things? Rooms have many desks; what stands on them tells one from the other.
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "frame.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace examples::slam {
+
+/// How alike two lists of things are: the intersection of histograms over class and third of the picture's width, in
+/// which a thing in the neighbouring third counts half. People and cars are no part of a place: leave them out.
+/// @return `least` for nothing in common to 1 for the same; 1 where one of them shows nothing at all
+inline double likeness_of_things(stillpoint::span<const SeenThing> a, stillpoint::span<const SeenThing> b,
+                                 double least = 0.2) {
+  if (a.empty() || b.empty()) return 1.0;
+  const auto histogram = [](stillpoint::span<const SeenThing> things) {
+    constexpr int kThirds = 3;
+    std::map<std::pair<int, int>, double> bins;
+    for (const SeenThing& thing : things)
+      bins[{thing.class_index, std::clamp(static_cast<int>(thing.u * kThirds), 0, kThirds - 1)}] += 1.0;
+    return bins;
+  };
+  auto of_a = histogram(a), of_b = histogram(b);
+  double common = 0.0;
+  const auto intersect = [&](int shift, double counts) {
+    for (auto& [bin, left] : of_a) {
+      const auto other = of_b.find({bin.first, bin.second + shift});
+      if (other == of_b.end()) continue;
+      const double both = std::min(left, other->second);
+      left -= both;
+      other->second -= both;
+      common += counts * both;
+    }
+  };
+  intersect(0, 1.0);
+  intersect(-1, 0.5);
+  intersect(1, 0.5);
+  const double share = common / static_cast<double>(std::max(a.size(), b.size()));
+  return least + (1.0 - least) * share;
+}
+
+}  // namespace examples::slam

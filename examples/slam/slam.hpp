@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// A small RGB-D SLAM behind the filter. This file shows the order; each step has a file of its own:
+//
+// | step       | what                                                           | file               |
+// |------------|----------------------------------------------------------------|--------------------|
+// | track      | the local map's points are found in the frame: its pose        | tracking.hpp       |
+// |            | a lost camera is looked for in all keyframes                   | loop_closing.hpp   |
+// | keyframe   | a frame that the map explains badly joins it, with new points  | mapping.hpp        |
+// | map        | points that are the same are made one; points by two views     | mapping.hpp        |
+// | multi-view | a window is adjusted, what deviates is removed, until none does | multi_view.hpp     |
+// | loop       | a place seen long ago, known by its features and things        | loop_closing.hpp   |
+//
+// The first two run in the caller's thread (slam.cpp), the others behind it (map_keeper.cpp).
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "../backends/feature_depth.hpp"
+#include "../backends/orb_features.hpp"
+#include "../backends/spread_orb.hpp"
+#include "frame.hpp"
+#include "map_keeper.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/evaluation/trajectory.hpp"
+#include "tracking.hpp"
+
+namespace examples::slam {
+
+struct SlamOptions {
+  SpreadOrb::Options orb;
+  MeasurementNoise noise;
+  DepthLimits depth_limits;
+  double keyframe_share = 0.4;        ///< a new keyframe where the map explains less of the features with depth
+  double keyframe_motion = 0.2;       ///< or the camera has moved this far from the last: metres plus radians
+  std::size_t most_waiting = 2;       ///< keyframes that mapping has not come to: then there is no new one
+  std::size_t fewest_to_begin = 100;  ///< features with depth: fewer make no first keyframe
+  int patience = 15;                  ///< frames without a pose; then the map goes on where the camera is expected
+  bool maps_in_step = false;          ///< mapping is waited for: the same bytes each time
+  // The rows of the ablation.
+  bool uses_multi_view = true;  ///< adjusts windows and removes what deviates
+  bool uses_bundle = true;      ///< adjusts them
+  bool uses_loops = true;
+  bool uses_things = true;  ///< as a cue of loops
+};
+
+/// A backend of `FilteredTracker`. The world is the camera of the first frame that is tracked.
+class Slam {
+ public:
+  SlamOptions options;
+  Tracking tracking;
+
+  Slam(Camera camera, const SlamOptions& settings);
+
+  OrbFeatures extract(const stillpoint::FrameView& frame) { return orb_.extract(frame); }
+  void expect_motion(const Pose& current_from_last) { tracking.expect_motion(current_from_last); }
+  /// What a detector has seen in the coming frame. People and cars are no part of a place: they are left out.
+  void expect_detections(stillpoint::span<const stillpoint::Detection> detections);
+
+  /// @return world_from_camera, as it is known at the time
+  std::optional<Pose> track(const stillpoint::FrameView& view, const OrbFeatures& features);
+
+  /// Each frame with a pose, as its keyframe stands when all mapping is done.
+  stillpoint::Trajectory trajectory();
+  /// The map as PLY when all mapping is done, and as it was before its last loop: empty where there was none.
+  std::string map_ply();
+  std::string map_ply_before_loop();
+  /// The map and what is done to it. Lock its mutex, or call `trajectory` first.
+  MapKeeper& keeper() { return *keeper_; }
+
+ private:
+  Frame prepare(const stillpoint::FrameView& view, const OrbFeatures& features);
+  bool locate(Frame& frame);
+  bool wants_keyframe(const Frame& frame) const;
+
+  Camera camera_;
+  SpreadOrb orb_;
+  std::unique_ptr<MapKeeper> keeper_;  ///< stays where it is when this is moved
+  std::vector<SeenThing> things_;
+};
+
+}  // namespace examples::slam

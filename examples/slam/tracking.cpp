@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "tracking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace examples::slam {
+
+bool Tracking::locate(Frame& frame, Map& map, const MeasurementNoise& noise) {
+  add_up_told_motion();
+  const bool has_last = !last_points_.empty() || !map.has(reference_);
+  return locate_from(expected_camera_from_world(map), has_last ? last_points_ : map.keyframe(reference_).point, frame,
+                     map, noise);
+}
+
+bool Tracking::locate_by(KeyframeId place, const Pose& camera_from_world, Frame& frame, Map& map,
+                         const MeasurementNoise& noise) {
+  return locate_from(camera_from_world, map.keyframe(place).point, frame, map, noise);
+}
+
+Pose Tracking::expected_camera_from_world(const Map& map) const {
+  return stillpoint::orthonormalized(expected_motion() * last_camera_from_world(map));
+}
+
+bool Tracking::locate_from(const Pose& camera_from_world, span<const PointId> seen, Frame& frame, Map& map,
+                           const MeasurementNoise& noise) {
+  const std::vector<PointId> local = local_points(map, seen);
+  matches_.clear();
+  options.search(map, local, camera_, camera_from_world, frame, matches_);
+  see(frame, map, matches_, noise);
+  Pose pose = camera_from_world;
+  if (!solve(observations_, camera_, pose, inlier_)) return false;
+  frame.camera_from_world = pose;
+  return refine(frame, map, local, noise);
+}
+
+/// The pose is nearly right: more points are found, and false matches hardly any.
+bool Tracking::refine(Frame& frame, Map& map, span<const PointId> local, const MeasurementNoise& noise) {
+  const std::vector<PointMatch> wide = matches_;
+  matches_.clear();
+  std::vector<PointId> expected;
+  options.refined_search(map, local, camera_, frame.camera_from_world, frame, matches_, &expected);
+  see(frame, map, matches_, noise);
+  Pose pose = frame.camera_from_world;
+  fitting_ = solve.refine(observations_, camera_, pose, inlier_);
+  if (fitting_ < options.fewest) return false;
+  frame.camera_from_world = pose;
+  for (const PointId id : expected) ++map.point(id).visible;
+  std::fill(frame.point.begin(), frame.point.end(), kNone);
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    ++map.point(matches_[i].point).found;
+    if (inlier_[i] != 0) frame.point[static_cast<std::size_t>(matches_[i].feature)] = matches_[i].point;
+  }
+  frame.deviates.assign(frame.size(), 0);
+  mark_deviating(frame, map, wide, noise);
+  mark_deviating(frame, map, matches_, noise);
+  return true;
+}
+
+/// A feature like a point, near it, that is not where the point must be by the noise of both: it has moved. It may be
+/// wrongly matched, too: then nothing is lost if it makes no point.
+void Tracking::mark_deviating(Frame& frame, const Map& map, span<const PointMatch> matches,
+                              const MeasurementNoise& noise) const {
+  constexpr double kChiSquared = 11.34;  // 99 % of right ones are below this (three degrees of freedom)
+  for (const PointMatch& match : matches) {
+    const auto i = static_cast<std::size_t>(match.feature);
+    if (frame.point[i] != kNone) continue;
+    const MapPoint& point = map.point(match.point);
+    const Vector3d p = frame.camera_from_world * point.p_world;
+    if (!(p.z() > 0)) continue;
+    const Vector3d sigma_m = frame.camera_from_world.linear() * point.sigma_m();
+    const double pixel_sigma =
+        std::hypot(noise.pixel(frame.octave(match.feature)), camera_.fx() * sigma_m.head<2>().norm() / p.z());
+    double error = (camera_.project(p) - frame.pixel[i]).squaredNorm() / (pixel_sigma * pixel_sigma);
+    if (frame.depth_m[i] > 0)
+      error += std::pow((p.z() - frame.depth_m[i]) / std::hypot(noise.depth_m(frame.depth_m[i]), sigma_m.z()), 2);
+    frame.deviates[i] = error > kChiSquared ? 1 : 0;
+  }
+}
+
+void Tracking::go_on_from(const Frame& frame, const Map& map, KeyframeId keyframe) {
+  const Pose last = map.has(reference_) ? last_camera_from_world(map) : frame.camera_from_world;
+  motion_ = misses_ > 0 ? Pose::Identity() : Pose(frame.camera_from_world * last.inverse());
+  if (keyframe != kNone) {
+    reference_ = keyframe;
+  } else {
+    const auto sharing = map.that_see(frame.point, 1);
+    if (!sharing.empty()) reference_ = sharing.front().first;
+  }
+  camera_from_reference_ = frame.camera_from_world * map.keyframe(reference_).camera_from_world.inverse();
+  last_points_ = keyframe != kNone ? map.keyframe(keyframe).point : frame.point;
+  told_since_pose_ = Pose::Identity();
+  misses_ = 0;
+}
+
+void Tracking::miss() {
+  motion_ = Pose::Identity();
+  ++misses_;
+}
+
+Pose Tracking::last_camera_from_world(const Map& map) const {
+  if (!map.has(reference_)) return Pose::Identity();
+  return stillpoint::orthonormalized(camera_from_reference_ * map.keyframe(reference_).camera_from_world);
+}
+
+/// Frame by frame since the last pose; nothing any more where one frame was told nothing.
+void Tracking::add_up_told_motion() {
+  if (!told_)
+    told_since_pose_.reset();
+  else if (told_since_pose_)
+    told_since_pose_ = stillpoint::orthonormalized(*told_ * *told_since_pose_);
+  told_.reset();
+}
+
+/// As the filter says, or as it went on last. A velocity from few points is soon a mover's.
+Pose Tracking::expected_motion() const { return told_since_pose_ ? *told_since_pose_ : motion_; }
+
+std::vector<PointId> Tracking::local_points(const Map& map, span<const PointId> seen) const {
+  std::vector<KeyframeId> keyframes;
+  for (const auto& [id, shared] : map.that_see(seen, options.fewest_shared)) {
+    keyframes.push_back(id);
+    if (keyframes.size() == options.local_keyframes) break;
+  }
+  if (keyframes.empty() && map.has(reference_)) keyframes.push_back(reference_);
+  return map.points_of(keyframes);
+}
+
+void Tracking::see(const Frame& frame, const Map& map, span<const PointMatch> matches, const MeasurementNoise& noise) {
+  observations_.clear();
+  for (const PointMatch& match : matches) {
+    const MapPoint& point = map.point(match.point);
+    const auto i = static_cast<std::size_t>(match.feature);
+    const double depth_m = frame.depth_m[i];
+    observations_.push_back({point.p_world, frame.pixel[i], noise.pixel(frame.octave(match.feature)), depth_m,
+                             noise.depth_m(depth_m), point.sigma_m(), frame.features.weights[i], i});
+  }
+}
+
+}  // namespace examples::slam

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// reference FOLDER: writes a rendered sequence in the layout of the TUM benchmark, and what the C++ says of it, bit for
+// bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin and figures.txt. tests/python/test_equal_to_cpp.py calls the same
+// in Python.
+
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "stillpoint/evaluation/feature_score.hpp"
+#include "stillpoint/evaluation/trajectory_error.hpp"
+#include "stillpoint/io/number_format.hpp"
+#include "stillpoint/io/trajectory_file.hpp"
+#include "stillpoint/prior/propagated_prior.hpp"
+#include "stillpoint/stillpoint.hpp"
+#include "stillpoint/synthetic/renderer.hpp"
+#include "stillpoint/synthetic/scenes.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using stillpoint::FrameResult, stillpoint::ImageBuffer, stillpoint::Pose;
+
+/// What test_equal_to_cpp.py does at the same frames.
+constexpr int kFrames = 14, kExpectedAt = 5, kDetectedAt = 6, kOptionAt = 8, kResetAt = 11;
+
+/// One keypoint, without gaps, as numpy reads it.
+struct Feature {
+  double depth_m;
+  float x, y, score, probability, weight;
+  std::int32_t cluster;
+  std::uint8_t keep, verdict, reason, padding[5];
+};
+static_assert(sizeof(Feature) == 40);
+
+class Bytes {
+ public:
+  explicit Bytes(const fs::path& file) : stream_(file, std::ios::binary) {
+    stream_.exceptions(std::ios::badbit | std::ios::failbit);
+  }
+  template <class T>
+  void write(const T* values, std::size_t count) {
+    stream_.write(reinterpret_cast<const char*>(values), static_cast<std::streamsize>(count * sizeof(T)));
+  }
+
+ private:
+  std::ofstream stream_;
+};
+
+void write_features(const fs::path& file, const std::vector<cv::KeyPoint>& keypoints, const FrameResult& result) {
+  std::vector<float> weights;
+  stillpoint::weights(result, weights);
+  Bytes bytes(file);
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    const stillpoint::Label& label = result.label(i);
+    const Feature feature{result.depth_m(i),
+                          keypoints[i].pt.x,
+                          keypoints[i].pt.y,
+                          result.score(i).value,
+                          label.probability,
+                          weights[i],
+                          label.cluster,
+                          result.keep()[i],
+                          static_cast<std::uint8_t>(label.verdict),
+                          static_cast<std::uint8_t>(label.reason),
+                          {}};
+    bytes.write(&feature, 1);
+  }
+}
+
+void write_masks(const fs::path& file, const ImageBuffer& predicted, const FrameResult& result) {
+  ImageBuffer mask;
+  result.mask(mask);
+  Bytes bytes(file);
+  for (const ImageBuffer* const buffer : {&predicted, static_cast<const ImageBuffer*>(&mask)}) {
+    const stillpoint::ImageView view = buffer->view();
+    bytes.write(view.data, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+  }
+}
+
+/// world_from_camera, the true motion since the last frame, and the filter's, row by row; the status.
+void write_poses(const fs::path& file, const Pose& truth, const Pose& true_motion, const FrameResult& result) {
+  using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+  const RowMajor matrices[3] = {truth.matrix(), true_motion.matrix(), result.motion().current_from_reference.matrix()};
+  const double status = static_cast<double>(result.status());
+  Bytes bytes(file);
+  for (const RowMajor& matrix : matrices) bytes.write(matrix.data(), 16);
+  bytes.write(&status, 1);
+}
+
+void write_image(const fs::path& file, const ImageBuffer& image) {
+  if (!cv::imwrite(file.string(), stillpoint::as_mat(image.view())))
+    throw stillpoint::Error(file.string() + ": cannot write");
+}
+
+void write_figures(const fs::path& folder, const stillpoint::FilterScore& score) {
+  const stillpoint::Trajectory truth = stillpoint::read_trajectory(folder / "groundtruth.txt");
+  const stillpoint::Trajectory estimate = stillpoint::read_trajectory(folder / "estimate.txt");
+  const auto ate = stillpoint::absolute_trajectory_error(truth, estimate, stillpoint::Alignment::se3);
+  const auto rpe = stillpoint::relative_trajectory_error(truth, estimate);
+  std::ofstream figures(folder / "figures.txt");
+  const auto write = [&](const char* name, double value) {
+    figures << name << ' ' << stillpoint::option_text(value) << '\n';
+  };
+  write("ate_rmse_m", stillpoint::error_statistics(ate.errors.translation_m).rmse);
+  write("ate_rotation_median_deg", stillpoint::error_statistics(ate.errors.rotation_deg).median);
+  write("rpe_rmse_m", stillpoint::error_statistics(rpe.translation_m).rmse);
+  write("recall", score.recall().value());
+  write("false_positive_rate", score.false_alarms().value());
+}
+
+void run(const fs::path& folder) {
+  stillpoint::synthetic::SceneOptions options;
+  options.width = 320;
+  options.height = 240;
+  options.frames = kFrames;
+  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::walking_people(options));
+  const stillpoint::Camera& camera = sequence.camera();
+  for (const char* const name : {"rgb", "depth", "labels"}) fs::create_directories(folder / name);
+  std::ofstream associations(folder / "associations.txt"), camera_yaml(folder / "camera.yaml");
+  const auto text = [](double value) { return stillpoint::option_text(value); };
+  camera_yaml << "fx: " << text(camera.fx()) << "\nfy: " << text(camera.fy()) << "\ncx: " << text(camera.cx())
+              << "\ncy: " << text(camera.cy()) << "\nwidth: " << camera.width() << "\nheight: " << camera.height()
+              << "\ndepth_factor: " << text(sequence.scene().sensor.depth_factor) << '\n';
+
+  stillpoint::FrameFilter<> filter(camera);
+  stillpoint::SyntheticFrame frame;
+  stillpoint::FilterScore score;
+  stillpoint::Trajectory truth, estimate;
+  Pose last = Pose::Identity(), world_from_camera = Pose::Identity();
+  ImageBuffer predicted;
+  const auto orb = cv::ORB::create(400);
+  for (int i = 0; i < kFrames; ++i) {
+    sequence.render(i, frame);
+    char name[16];
+    std::snprintf(name, sizeof name, "%02d", i);
+    write_image(folder / "rgb" / (std::string(name) + ".png"), frame.gray);
+    write_image(folder / "depth" / (std::string(name) + ".png"), frame.depth);
+    write_image(folder / "labels" / (std::string(name) + ".png"), frame.labels);
+    const std::string time = stillpoint::format_timestamp(frame.timestamp_s);
+    associations << time << " rgb/" << name << ".png " << time << " depth/" << name << ".png\n";
+    std::vector<cv::KeyPoint> keypoints;
+    orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
+
+    if (i == kOptionAt) filter.gate.options.false_positive_rate = 0.02;
+    if (i == kResetAt) filter.reset();
+    const Pose true_motion = frame.world_from_camera.inverse() * last;
+    if (i == kExpectedAt) filter.expect_motion(true_motion);
+    if (i == kDetectedAt)
+      filter.prior.detected(frame.timestamp_s, {{{100, 40, 80, 150}, stillpoint::Mobility::dynamic, 0.9f}});
+    filter.predicted_keep_mask(frame.timestamp_s, 8, predicted);
+    const FrameResult& result = filter.filter_frame(
+        {frame.gray.view(), stillpoint::DepthView(frame.depth.view(), frame.depth_factor), frame.timestamp_s},
+        keypoints);
+    filter.feedback(frame.world_from_camera);
+
+    write_features(folder / ("features_" + std::string(name) + ".bin"), keypoints, result);
+    write_masks(folder / ("masks_" + std::string(name) + ".bin"), predicted, result);
+    write_poses(folder / ("poses_" + std::string(name) + ".bin"), frame.world_from_camera, true_motion, result);
+    std::vector<stillpoint::Vector2f> pixels;
+    stillpoint::read_pixels(keypoints, pixels);
+    score.add_frame(frame.labels.view(), pixels, result.keep());
+    if (result.motion().usable())
+      world_from_camera = world_from_camera * result.motion().current_from_reference.inverse();
+    truth.push_back({frame.timestamp_s, frame.world_from_camera});
+    estimate.push_back({frame.timestamp_s, world_from_camera});
+    last = frame.world_from_camera;
+  }
+  stillpoint::write_trajectory(folder / "groundtruth.txt", truth);
+  stillpoint::write_trajectory(folder / "estimate.txt", estimate);
+  write_figures(folder, score);
+}
+
+}  // namespace
+
+int main(int argument_count, char** arguments) {
+  try {
+    if (argument_count != 2) throw stillpoint::Error("usage: reference FOLDER");
+    run(arguments[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "reference: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: 2026 The stillpoint authors
+# SPDX-License-Identifier: MIT
+
+"""What Python says is what C++ says, bit for bit: on a rendered sequence, and on a recorded one beside stillpoint_run."""
+
+import subprocess
+import sys
+
+import cv2
+import numpy as np
+import pytest
+
+import stillpoint
+from conftest import read_frames
+
+# tests/python/reference.cpp does the same at these frames.
+EXPECTED_AT, DETECTED_AT, OPTION_AT, RESET_AT = 5, 6, 8, 11
+FEATURE = np.dtype([("depth_m", "f8"), ("x", "f4"), ("y", "f4"), ("score", "f4"), ("probability", "f4"), ("weight", "f4"),
+                    ("cluster", "i4"), ("keep", "u1"), ("verdict", "u1"), ("reason", "u1"), ("padding", "u1", 5)])
+
+
+def assert_same_bits(found, expected, what):
+    found, expected = np.ascontiguousarray(found), np.ascontiguousarray(expected)
+    assert found.dtype == expected.dtype and found.shape == expected.shape, what
+    assert found.tobytes() == expected.tobytes(), what
+
+
+@pytest.mark.parametrize("as_keypoints", [False, True], ids=["array", "cv2.KeyPoint"])
+@pytest.mark.parametrize("in_metres", [False, True], ids=["uint16", "float32"])
+def test_each_feature_of_each_frame(reference, frames, frame_filter, depth_factor, as_keypoints, in_metres):
+    keypoints_of = cv2.ORB_create(400)
+    statuses = []
+    for i, frame in enumerate(frames):
+        features = np.fromfile(reference / f"features_{i:02}.bin", FEATURE)
+        masks = np.fromfile(reference / f"masks_{i:02}.bin", np.uint8).reshape(2, *frame.gray.shape)
+        numbers = np.fromfile(reference / f"poses_{i:02}.bin", np.float64)
+        world_from_camera, true_motion, motion = numbers[:48].reshape(3, 4, 4)
+        pixels = np.stack([features["x"], features["y"]], axis=1)
+        assert_same_bits(frame.pixels, pixels, "cv2 finds other corners in Python than in C++")
+
+        if i == OPTION_AT:
+            frame_filter.options.gate.false_positive_rate = 0.02
+        if i == RESET_AT:
+            frame_filter.reset()
+        if i == EXPECTED_AT:
+            frame_filter.expect_motion(true_motion)
+        if i == DETECTED_AT:
+            frame_filter.detected(frame.timestamp_s, [stillpoint.Detection(100, 40, 80, 150, confidence=0.9)])
+        predicted = frame_filter.predicted_keep_mask(frame.timestamp_s, 8)
+        keypoints = keypoints_of.detect(frame.gray) if as_keypoints else frame.pixels
+        if in_metres:
+            depth, factor = (frame.depth / depth_factor).astype(np.float32), None
+        else:
+            depth, factor = frame.depth, depth_factor
+        result = frame_filter.filter_frame(frame.gray, depth, frame.timestamp_s, keypoints, factor)
+        frame_filter.feedback(world_from_camera)
+
+        assert_same_bits(result.keep, features["keep"].astype(bool), f"keep, frame {i}")
+        for name, field in (("verdicts", "verdict"), ("reasons", "reason"), ("scores", "score"), ("clusters", "cluster"),
+                            ("probabilities", "probability"), ("weights", "weight"), ("depths_m", "depth_m")):
+            assert_same_bits(getattr(result, name), features[field], f"{name}, frame {i}")
+        assert_same_bits(predicted, masks[0], f"predicted_keep_mask, frame {i}")
+        assert_same_bits(result.mask(), masks[1], f"mask, frame {i}")
+        assert_same_bits(result.motion.current_from_reference, motion, f"motion, frame {i}")
+        assert result.status == numbers[48]
+        statuses.append(result.status)
+    assert statuses.count(stillpoint.Status.first_frame) == 2 and statuses.count(stillpoint.Status.ok) == len(frames) - 2
+
+
+def test_figures(reference, frames, frame_filter, camera, depth_factor):
+    figures = dict(line.split() for line in (reference / "figures.txt").read_text().splitlines())
+    for load in (str, lambda file: np.loadtxt(file)):
+        truth, estimate = load(reference / "groundtruth.txt"), load(reference / "estimate.txt")
+        ate, rpe = stillpoint.ate(truth, estimate), stillpoint.rpe(truth, estimate)
+        assert ate.translation.rmse == float(figures["ate_rmse_m"])
+        assert ate.rotation.median == float(figures["ate_rotation_median_deg"])
+        assert rpe.translation.rmse == float(figures["rpe_rmse_m"])
+    flags = [np.fromfile(reference / f"features_{i:02}.bin", FEATURE)["keep"].astype(bool) for i in range(len(frames))]
+    score = stillpoint.recall((frame.labels, frame.pixels, keep) for frame, keep in zip(frames, flags))
+    assert score.recall == float(figures["recall"])
+    assert score.false_positive_rate == float(figures["false_positive_rate"])
+
+
+def test_beside_the_program(recorded, tmp_path):
+    """30 frames of a recorded sequence against features.csv of `python -m stillpoint`."""
+    folder, count = recorded / "kitchen_walk", 30
+    subprocess.run([sys.executable, "-m", "stillpoint", "--tum", folder, "--backend", "none", "--frames", str(count),
+                    "--out", tmp_path / "out", "--quiet"], check=True, stdout=subprocess.DEVNULL)
+    expected = (tmp_path / "out/features.csv").read_text().splitlines()[1:]
+    camera, factor = stillpoint.read_camera(str(folder / "camera.yaml"))
+    frame_filter = stillpoint.FrameFilter(camera)
+    orb = cv2.ORB_create(1000)
+    rows = iter(expected)
+    dropped = 0
+    for time, gray, depth, _ in read_frames(folder, count):
+        keypoints = orb.detect(gray)
+        result = frame_filter.filter_frame(gray, depth, time, keypoints, factor)
+        for i, keypoint in enumerate(keypoints):
+            x, y = keypoint.pt
+            row = [f"{x:.5f}", f"{y:.5f}", str(int(result.keep[i])), stillpoint.Verdict(result.verdicts[i]).name,
+                   stillpoint.Reason(result.reasons[i]).name, f"{result.scores[i]:.6f}", str(result.clusters[i])]
+            if result.status == stillpoint.Status.ok:
+                row.append(f"{result.depths_m[i]:.4f}")
+            cells = next(rows).split(",")
+            assert float(cells[0]) == time and cells[1:1 + len(row)] == row
+        dropped += len(result) - result.kept_count
+    assert next(rows, None) is None
+    assert dropped > 1000  # a person walks through the view

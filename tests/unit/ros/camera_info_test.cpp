@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// K and the lens models, and the lenses that are refused.
+
+#include "stillpoint_ros/camera_info.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <variant>
+
+#include "unit/error_of.hpp"
+
+namespace stillpoint_ros::camera_info_test {
+
+using stillpoint::error_of;
+
+CameraInfo info(const std::string& model = "", std::vector<double> d = {}) {
+  return {1.0, 640, 480, {525, 0, 320, 0, 526, 241, 0, 0, 1}, model, std::move(d)};
+}
+
+TEST(CameraInfo, HasTheIntrinsicsRowByRow) {
+  const stillpoint::Camera camera = camera_of(info());
+  EXPECT_EQ(camera.fx(), 525);
+  EXPECT_EQ(camera.fy(), 526);
+  EXPECT_EQ(camera.cx(), 320);
+  EXPECT_EQ(camera.cy(), 241);
+  EXPECT_EQ(camera.width(), 640);
+  EXPECT_EQ(camera.height(), 480);
+}
+
+TEST(CameraInfo, CoefficientsOfZeroAreNoLens) {
+  for (const char* model : {"plumb_bob", "rational_polynomial", "equidistant", "whatever"})
+    EXPECT_TRUE(std::holds_alternative<stillpoint::NoDistortion>(distortion_of(info(model, {0, 0, 0, 0, 0})).model));
+}
+
+TEST(CameraInfo, LensesHaveTheirCoefficientsInRosOrder) {
+  for (const auto& [model, d] : {std::pair<const char*, std::vector<double>>{"plumb_bob", {.1, .2, .3, .4, .5}},
+                                 {"rational_polynomial", {.1, .2, .3, .4, .5, 0, 0, 0}}}) {
+    const auto lens = std::get<stillpoint::BrownConrady>(distortion_of(info(model, d)).model);
+    EXPECT_EQ(lens.k1, .1);
+    EXPECT_EQ(lens.k2, .2);
+    EXPECT_EQ(lens.p1, .3);
+    EXPECT_EQ(lens.p2, .4);
+    EXPECT_EQ(lens.k3, .5);
+  }
+  EXPECT_EQ(std::get<stillpoint::BrownConrady>(distortion_of(info("plumb_bob", {.1, .2, .3, .4})).model).k3, 0);
+  const auto fisheye = std::get<stillpoint::EquidistantFisheye>(distortion_of(info("equidistant", {1, 2, 3, 4})).model);
+  EXPECT_EQ(fisheye.k1, 1);
+  EXPECT_EQ(fisheye.k4, 4);
+}
+
+TEST(CameraInfo, WhatHasNoModelIsRefused) {
+  EXPECT_EQ(error_of([] {
+              camera_of(info("rational_polynomial", {.1, 0, 0, 0, 0, .2, 0, 0}));
+            }),
+            "camera_info: distortion_model is rational_polynomial with coefficient 5 not 0, expected at most five "
+            "(image_proc rectifies the images of such a lens)");
+  EXPECT_EQ(error_of([] { camera_of(info("double_sphere", {.1})); }),
+            "camera_info: distortion_model is 'double_sphere', expected plumb_bob, equidistant, or rectified images "
+            "with coefficients of 0");
+  CameraInfo uncalibrated = info();
+  uncalibrated.k = {};
+  EXPECT_EQ(error_of([&] { camera_of(uncalibrated); }),
+            "camera_info: fx is 0, expected the camera matrix K of a calibrated camera");
+  CameraInfo broken = info();
+  broken.k[2] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of([&] { camera_of(broken); }), "no error");
+}
+
+TEST(CameraInfo, IsTheSameCameraWhateverTheTime) {
+  CameraInfo later = info();
+  later.stamp_s = 2;
+  EXPECT_TRUE(is_same_camera(info(), later));
+  for (const auto change : {+[](CameraInfo& i) { i.k[4] = 1; }, +[](CameraInfo& i) { i.width = 1; },
+                            +[](CameraInfo& i) { i.d = {1}; }, +[](CameraInfo& i) { i.distortion_model = "x"; }}) {
+    CameraInfo other = info();
+    change(other);
+    EXPECT_FALSE(is_same_camera(info(), other));
+  }
+}
+
+}  // namespace stillpoint_ros::camera_info_test

@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "slam/map.hpp"
+
+#include <gtest/gtest.h>
+
+#include "made_map.hpp"
+#include "slam/mapping.hpp"
+#include "slam/path.hpp"
+
+namespace slam_test {
+namespace {
+
+/// Points and keyframes name each other.
+void expect_consistent(const slam::Map& map) {
+  for (slam::PointId id = 0; id < map.point_ids(); ++id) {
+    if (!map.has_point(id)) continue;
+    EXPECT_FALSE(map.point(id).observations.empty()) << id;
+    for (const slam::Observation& seen : map.point(id).observations)
+      EXPECT_EQ(map.keyframe(seen.keyframe).point[static_cast<std::size_t>(seen.feature)], id);
+  }
+  for (const auto& [id, keyframe] : map.keyframes())
+    for (std::size_t i = 0; i < keyframe.size(); ++i) {
+      if (keyframe.point[i] == slam::kNone) continue;
+      ASSERT_TRUE(map.has_point(keyframe.point[i]));
+      EXPECT_EQ(map.point(keyframe.point[i]).observation_in(id), static_cast<int>(i));
+    }
+}
+
+TEST(Map, BothSidesAgreeWhateverIsRemoved) {
+  slam::Map map = made_map(made_points(40), 4);
+  expect_consistent(map);
+  EXPECT_EQ(map.point_count(), 40u);
+  map.remove(3);
+  map.remove_observation(5, 2);
+  map.merge(7, 8);  // all keyframes see both: the second keeps its own features
+  map.remove_keyframe(1);
+  expect_consistent(map);
+  EXPECT_EQ(map.point_count(), 38u);
+  EXPECT_FALSE(map.has_point(3));
+  EXPECT_FALSE(map.has_point(7));
+  EXPECT_EQ(map.point(8).observations.size(), 3u);
+}
+
+TEST(Map, APointThatNobodySeesIsGoneAndItsIdIsUsedAgain) {
+  slam::Map map = made_map(made_points(2), 2);
+  map.remove_observation(0, 0);
+  EXPECT_TRUE(map.has_point(0));
+  map.remove_observation(0, 1);
+  EXPECT_FALSE(map.has_point(0));
+  EXPECT_EQ(map.add_point(1, 0, Vector3d(0, 0, 1), Vector3d::Zero()), 0);
+  EXPECT_EQ(map.point_ids(), 2);
+}
+
+TEST(Map, CovisibleKeyframesComeByThePointsTheyShare) {
+  slam::Map map = made_map(made_points(10), 3);
+  for (slam::PointId id = 0; id < 4; ++id) map.remove_observation(id, 1);
+  const auto covisible = map.covisible(2, 1);
+  ASSERT_EQ(covisible.size(), 2u);
+  EXPECT_EQ(covisible[0], (std::pair<slam::KeyframeId, int>(0, 10)));
+  EXPECT_EQ(covisible[1], (std::pair<slam::KeyframeId, int>(1, 6)));
+  EXPECT_EQ(map.covisible(2, 7).size(), 1u);
+}
+
+TEST(Path, GoesWithItsKeyframes) {
+  slam::Map map = made_map(made_points(30), 3, 0.1);
+  slam::Path path;
+  path.add(1.0, 1, Pose::Identity());
+  Pose& one = map.keyframe(1).camera_from_world;
+  one.translation().y() -= 0.5;
+  EXPECT_NEAR(path.trajectory(map)[0].world_from_camera.translation().y(), 0.5, 1e-12);
+  // A keyframe that is gone hands its frames to another, where they stay.
+  const slam::CulledKeyframe culled{1, 2, one * map.keyframe(2).camera_from_world.inverse()};
+  map.remove_keyframe(1);
+  path.replace(culled);
+  EXPECT_NEAR((path.trajectory(map)[0].world_from_camera.translation() - Vector3d(0.1, 0.5, 0)).norm(), 0, 1e-12);
+}
+
+TEST(Mapping, KeyframesThatOthersMakeNeedlessGo) {
+  slam::Map map = made_map(made_points(60), 8);
+  const slam::Mapping mapping(camera(), slam::MeasurementNoise{});
+  const slam::KeyframeId in_use = 2;
+  const auto culled = mapping.cull_keyframes(7, in_use, map);
+  ASSERT_FALSE(culled.empty());
+  expect_consistent(map);
+  EXPECT_TRUE(map.has(0)) << "where the world is";
+  EXPECT_TRUE(map.has(in_use));
+  for (const slam::KeyframeId latest : {5, 6, 7}) EXPECT_TRUE(map.has(latest));
+  for (const slam::CulledKeyframe& gone : culled) {
+    EXPECT_FALSE(map.has(gone.id));
+    const double apart_m = 0.05 * (gone.kept - gone.id);
+    EXPECT_NEAR(gone.culled_from_kept.translation().x(), apart_m, 1e-12);
+  }
+}
+
+TEST(Mapping, PointsThatAreNotFoundAgainGo) {
+  slam::Map map = made_map(made_points(20), 2);
+  map.point(4).visible = 100;
+  const slam::Mapping mapping(camera(), slam::MeasurementNoise{});
+  mapping.cull_points(1, map);
+  EXPECT_FALSE(map.has_point(4));
+  EXPECT_EQ(map.point_count(), 19u);
+}
+
+TEST(Mapping, PointsSeenOnceAreOnTrial) {
+  slam::Map map = made_map(made_points(20), 2);
+  map.remove_observation(4, 1);
+  const slam::Mapping mapping(camera(), slam::MeasurementNoise{});
+  mapping.cull_points(2, map);
+  EXPECT_TRUE(map.has_point(4));
+  mapping.cull_points(3, map);
+  EXPECT_FALSE(map.has_point(4));
+  expect_consistent(map);
+}
+
+// A new keyframe names no point, and has no depth: what it shows is known by where the points must be.
+TEST(Mapping, AKeyframeIsConnectedToThePointsThatItShows) {
+  const std::vector<Vector3d> points = made_points(60);
+  slam::Map map = made_map(points, 2);
+  slam::Frame frame = made_frame(points, camera_at(0.1));
+  for (slam::PointId id = 0; id < 20; ++id) frame.point[static_cast<std::size_t>(id)] = id;  // by which it is covisible
+  const slam::Mapping mapping(camera(), slam::MeasurementNoise{});
+  const slam::KeyframeId id = map.add(frame);
+  mapping.connect(id, map);
+  expect_consistent(map);
+  int named = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) named += map.keyframe(id).point[i] == static_cast<slam::PointId>(i);
+  EXPECT_GT(named, 55) << "two that fall together may hide each other";
+  EXPECT_EQ(map.point_count(), 60u);
+}
+
+TEST(Mapping, TwoViewsMakePointsWhereDepthIsMissing) {
+  const std::vector<Vector3d> points = made_points(60);
+  slam::Map map = made_map(points, 1);
+  for (slam::PointId id = 40; id < 60; ++id) {
+    map.remove(id);
+    map.keyframe(0).depth_m[static_cast<std::size_t>(id)] = 0;
+  }
+  slam::Frame frame = made_frame(points, camera_at(0.2));
+  for (slam::PointId id = 0; id < 40; ++id) frame.point[static_cast<std::size_t>(id)] = id;
+  for (std::size_t i = 40; i < 60; ++i) frame.depth_m[i] = 0;
+  const slam::KeyframeId id = map.add(frame);
+  slam::Mapping(camera(), slam::MeasurementNoise{}).connect(id, map);
+  expect_consistent(map);
+  EXPECT_GT(map.point_count(), 55u);
+  for (std::size_t i = 40; i < 60; ++i) {
+    const slam::PointId made = map.keyframe(id).point[i];
+    if (made == slam::kNone) continue;
+    EXPECT_LT((map.point(made).p_world - points[i]).norm(), 1e-6);
+    EXPECT_EQ(map.keyframe(0).point[i], made);
+  }
+}
+
+}  // namespace
+}  // namespace slam_test
