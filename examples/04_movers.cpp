@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// 04_movers: what moves, where, and how fast? Two people, rendered, cross before an RGB-D camera; where they are
-// seen is said by the boxes of a perfect detector, which name them.
+// 04_movers: what moves, where, and how fast? Two rendered people cross; a perfect detector names them.
 
 #include <cstdio>
 #include <opencv2/features2d.hpp>

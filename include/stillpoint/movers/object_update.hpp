@@ -99,12 +99,6 @@ class ObjectUpdate {
     const Vector3d turn = vector_from_rotation(turned.moved.linear()) / elapsed_s;
     const Matrix3d covariance = kCorrelation / (elapsed_s * elapsed_s) * turned.covariance.topLeftCorner<3, 3>();
     object.angular.correct(turn, covariance);
-    if (!object.knows_turn) {
-      object.knows_turn = true;
-      object.mean_turn = turn;
-      object.mean_turn_covariance = covariance;
-      return;
-    }
     const double share = share_of(elapsed_s, kMean_s);
     object.mean_turn += share * (turn - object.mean_turn);
     object.mean_turn_covariance += share * (share * covariance - (2.0 - share) * object.mean_turn_covariance);

@@ -60,7 +60,6 @@ struct TrackedObject {
   std::size_t members = 0;    ///< features in the last frame in which it was seen
   double slow_s = 0;          ///< for how long it has hardly moved
   double rigid_share = 0.5;   ///< mean over time of the share of its points that move as one rigid body
-  bool knows_turn = false;    ///< `mean_turn` was measured
   bool turns = false;         ///< `mean_turn` is more than noise
   bool is_confirmed = false;  ///< it is reported
   bool is_seen = true;        ///< in the last frame
