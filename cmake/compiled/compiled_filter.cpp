@@ -52,6 +52,11 @@ void CompiledFilter<HostAbi>::expect_motion(Engine& engine, const Pose& current_
 }
 
 template <class HostAbi>
+void CompiledFilter<HostAbi>::expect_dynamic(Engine& engine, span<const std::uint8_t> is_dynamic) {
+  engine.expect_dynamic(is_dynamic);
+}
+
+template <class HostAbi>
 void CompiledFilter<HostAbi>::predicted_keep_mask(Engine& engine, double timestamp_s, int margin_px,
                                                   ImageBuffer& mask) {
   engine.predicted_keep_mask(timestamp_s, margin_px, mask);

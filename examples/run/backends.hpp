@@ -106,6 +106,9 @@ class AnyTracker {
     tracker_->expect_detections(detections);
   }
 
+  /// What the map calls dynamic; nothing without a map.
+  stillpoint::span<const std::uint8_t> dynamic_features() { return tracker_->dynamic_features(); }
+
   double extract_ms = 0.0;  ///< of the last frame
   double track_ms = 0.0;
 
@@ -117,6 +120,7 @@ class AnyTracker {
     virtual std::optional<stillpoint::Pose> track(const stillpoint::FrameView& frame, const AnyArrays& arrays) = 0;
     virtual std::optional<stillpoint::Trajectory> trajectory() = 0;
     virtual std::optional<MapFiles> map_files() = 0;
+    virtual stillpoint::span<const std::uint8_t> dynamic_features() = 0;
     virtual void expect_detections(const std::vector<stillpoint::Detection>& detections) = 0;
   };
 
@@ -158,6 +162,12 @@ class AnyTracker {
         return MapFiles{backend.map_ply(), backend.map_ply_before_loop()};
       else
         return std::nullopt;
+    }
+    stillpoint::span<const std::uint8_t> dynamic_features() override {
+      if constexpr (stillpoint::has_dynamic_features<Backend>::value)
+        return backend.dynamic_features();
+      else
+        return {};
     }
     void expect_detections(const std::vector<stillpoint::Detection>& detections) override {
       if constexpr (has_map<Backend>::value) backend.expect_detections(detections);

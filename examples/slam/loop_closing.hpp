@@ -41,8 +41,8 @@ class LoopClosing {
     double likeness_of_neighbours = 0.4;  ///< a candidate is at least this share as like as the likest covisible one
     std::size_t candidates = 3;           ///< that are looked at
     std::size_t fewest_points = 50;       ///< of the place that the keyframe must show
-    double fewest_share = 0.2;            ///< of the place's points in the picture must be found; seen from aside, half are not
-    double ambiguous = 0.9;               ///< another place of this share of the likeness must not fit as well
+    double fewest_share = 0.2;  ///< of the place's points in the picture must be found; seen from aside, half are not
+    double ambiguous = 0.9;     ///< another place of this share of the likeness must not fit as well
     PointSearch search;
     Options() {
       search.window_px = 8.0;

@@ -34,6 +34,8 @@ PointId Map::add_point(KeyframeId keyframe, int feature, const Vector3d& p_world
   made.p_world = p_world;
   made.ray_sigma_m = ray_sigma_m;
   made.made_by = keyframe;
+  const Pose& camera_from_world = this->keyframe(keyframe).camera_from_world;
+  made.first = {keyframe, camera_from_world * p_world, camera_from_world.linear() * ray_sigma_m};
   made.visible = made.found = 1;
   made.colour = this->keyframe(keyframe).colour[static_cast<std::size_t>(feature)];
   made.exists = true;
@@ -75,6 +77,10 @@ void Map::merge(PointId gone_id, PointId kept_id) {
   if (gone_id == kept_id) return;
   const std::vector<Observation> seen = point(gone_id).observations;
   const int visible = point(gone_id).visible, found = point(gone_id).found;
+  if (point(gone_id).made_by < point(kept_id).made_by) {
+    point(kept_id).first = point(gone_id).first;
+    point(kept_id).made_by = point(gone_id).made_by;
+  }
   remove(gone_id);
   for (const Observation& observation : seen) add_observation(kept_id, observation.keyframe, observation.feature);
   point(kept_id).visible += visible;
@@ -86,6 +92,12 @@ void Map::remove_keyframe(KeyframeId id) {
   const std::vector<PointId> named = keyframe(id).point;
   for (const PointId seen : named)
     if (has_point(seen)) remove_observation(seen, id);
+  for (MapPoint& point : points_) {
+    if (!point.exists || point.first.keyframe != id) continue;
+    const KeyframeId other = point.observations.front().keyframe;
+    const Pose other_from_gone = keyframe(other).camera_from_world * keyframe(id).camera_from_world.inverse();
+    point.first = {other, other_from_gone * point.first.p_camera, other_from_gone.linear() * point.first.ray_sigma_m};
+  }
   keyframes_.erase(id);
 }
 

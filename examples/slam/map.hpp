@@ -22,6 +22,13 @@ struct Observation {
   int feature = kNone;
 };
 
+/// Where a point was first seen. Its place in the map follows what is seen later: what creeps takes its points along.
+struct FirstSeen {
+  KeyframeId keyframe = kNone;              ///< that holds it: a neighbour, once the one that made it is gone
+  Vector3d p_camera = Vector3d::Zero();     ///< in the camera of that keyframe
+  Vector3d ray_sigma_m = Vector3d::Zero();  ///< there, too: one standard deviation along its ray
+};
+
 struct MapPoint {
   Vector3d p_world = Vector3d::Zero();
   Vector3d ray_sigma_m = Vector3d::Zero();  ///< of the measurement that made it, one standard deviation along its ray
@@ -30,6 +37,7 @@ struct MapPoint {
   Descriptor descriptor = {};               ///< the one that differs least from those of all observations
   std::vector<Observation> observations;    ///< by rising keyframe, one each
   KeyframeId made_by = kNone;
+  FirstSeen first;
   int visible = 0, found = 0;  ///< frames that should have shown it, and that did
   cv::Vec3b colour;
   bool exists = false;

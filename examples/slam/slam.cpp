@@ -13,6 +13,7 @@ namespace examples::slam {
 Slam::Slam(Camera camera, const SlamOptions& settings)
     : options(settings),
       tracking(camera),
+      find_dynamic(camera),
       camera_(camera),
       orb_(settings.orb),
       keeper_(std::make_unique<MapKeeper>(camera, settings.noise, !settings.maps_in_step)) {
@@ -20,6 +21,13 @@ Slam::Slam(Camera camera, const SlamOptions& settings)
   keeper_->multi_view.options.adjusts = settings.uses_bundle;
   keeper_->loop_closing.options.closes = settings.uses_loops;
   keeper_->loop_closing.options.compares_things = settings.uses_things;
+}
+
+OrbFeatures Slam::extract(const stillpoint::FrameView& frame) {
+  OrbFeatures features = orb_.extract(frame);
+  if (options.uses_multi_view) extracted_ = {features.keypoints, features.descriptors.clone(), {}};
+  is_dynamic_.assign(features.keypoints.size(), 0);
+  return features;
 }
 
 void Slam::expect_detections(stillpoint::span<const stillpoint::Detection> detections) {
@@ -47,6 +55,11 @@ std::optional<Pose> Slam::track(const stillpoint::FrameView& view, const OrbFeat
   if (is_new_beginning && count_depths(frame) < options.fewest_to_begin) return std::nullopt;
   KeyframeId keyframe = kNone;
   if (is_new_beginning || wants_keyframe(frame)) keyframe = keeper_->mapping.insert(frame, map);
+  if (options.uses_multi_view && !is_new_beginning && !extracted_.keypoints.empty()) {
+    Frame all = prepare(view, extracted_);
+    all.camera_from_world = frame.camera_from_world;
+    is_dynamic_ = find_dynamic(all, map, tracking.local_points(), options.noise);
+  }
   tracking.go_on_from(frame, map, keyframe);
   const KeyframeId reference = keeper_->in_use = tracking.reference();
   keeper_->path.add(view.timestamp_s, reference,

@@ -13,8 +13,11 @@
 // | multi-view | a window is adjusted, what deviates is removed, until none does | multi_view.hpp     |
 // | loop       | a place seen long ago, known by its features and things        | loop_closing.hpp   |
 //
-// The first two run in the caller's thread (slam.cpp), the others behind it (map_keeper.cpp).
+// | feedback   | features that the map calls dynamic go back to the filter       | dynamic_features.hpp |
+//
+// The first two and the last run in the caller's thread (slam.cpp), the others behind it (map_keeper.cpp).
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +27,7 @@
 #include "../backends/feature_depth.hpp"
 #include "../backends/orb_features.hpp"
 #include "../backends/spread_orb.hpp"
+#include "dynamic_features.hpp"
 #include "frame.hpp"
 #include "map_keeper.hpp"
 #include "stillpoint/core/frame.hpp"
@@ -45,8 +49,9 @@ struct SlamOptions {
   int patience = 15;                  ///< frames without a pose; then the map goes on where the camera is expected
   bool maps_in_step = false;          ///< mapping is waited for: the same bytes each time
   // The rows of the ablation.
-  bool uses_multi_view = true;  ///< adjusts windows and removes what deviates
-  bool uses_bundle = true;      ///< adjusts them
+  bool uses_multi_view =
+      true;                 ///< adjusts windows and removes what deviates; tells the filter what its map calls dynamic
+  bool uses_bundle = true;  ///< adjusts them
   bool uses_loops = true;
   bool uses_things = true;  ///< as a cue of loops
 };
@@ -56,16 +61,21 @@ class Slam {
  public:
   SlamOptions options;
   Tracking tracking;
+  DynamicFeatures find_dynamic;
 
   Slam(Camera camera, const SlamOptions& settings);
 
-  OrbFeatures extract(const stillpoint::FrameView& frame) { return orb_.extract(frame); }
+  OrbFeatures extract(const stillpoint::FrameView& frame);
   void expect_motion(const Pose& current_from_last) { tracking.expect_motion(current_from_last); }
   /// What a detector has seen in the coming frame. People and cars are no part of a place: they are left out.
   void expect_detections(stillpoint::span<const stillpoint::Detection> detections);
 
   /// @return world_from_camera, as it is known at the time
   std::optional<Pose> track(const stillpoint::FrameView& view, const OrbFeatures& features);
+
+  /// One byte per feature of the last `extract`, 1: moves, by the map. Nothing moves without multi-view geometry, whose
+  /// structure it deviates from.
+  stillpoint::span<const std::uint8_t> dynamic_features() const { return is_dynamic_; }
 
   /// Each frame with a pose, as its keyframe stands when all mapping is done.
   stillpoint::Trajectory trajectory();
@@ -84,6 +94,8 @@ class Slam {
   SpreadOrb orb_;
   std::unique_ptr<MapKeeper> keeper_;  ///< stays where it is when this is moved
   std::vector<SeenThing> things_;
+  OrbFeatures extracted_;  ///< of the coming frame, before the filter drops any
+  std::vector<std::uint8_t> is_dynamic_;
 };
 
 }  // namespace examples::slam

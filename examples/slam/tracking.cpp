@@ -4,8 +4,9 @@
 #include "tracking.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
+
+#include "dynamic_features.hpp"
 
 namespace examples::slam {
 
@@ -27,14 +28,14 @@ Pose Tracking::expected_camera_from_world(const Map& map) const {
 
 bool Tracking::locate_from(const Pose& camera_from_world, span<const PointId> seen, Frame& frame, Map& map,
                            const MeasurementNoise& noise) {
-  const std::vector<PointId> local = local_points(map, seen);
+  local_ = points_around(map, seen);
   matches_.clear();
-  options.search(map, local, camera_, camera_from_world, frame, matches_);
+  options.search(map, local_, camera_, camera_from_world, frame, matches_);
   see(frame, map, matches_, noise);
   Pose pose = camera_from_world;
   if (!solve(observations_, camera_, pose, inlier_)) return false;
   frame.camera_from_world = pose;
-  return refine(frame, map, local, noise);
+  return refine(frame, map, local_, noise);
 }
 
 /// The pose is nearly right: more points are found, and false matches hardly any.
@@ -60,24 +61,13 @@ bool Tracking::refine(Frame& frame, Map& map, span<const PointId> local, const M
   return true;
 }
 
-/// A feature like a point, near it, that is not where the point must be by the noise of both: it has moved. It may be
-/// wrongly matched, too: then nothing is lost if it makes no point.
+/// It may be wrongly matched, too: then nothing is lost if it makes no point.
 void Tracking::mark_deviating(Frame& frame, const Map& map, span<const PointMatch> matches,
                               const MeasurementNoise& noise) const {
-  constexpr double kChiSquared = 11.34;  // 99 % of right ones are below this (three degrees of freedom)
   for (const PointMatch& match : matches) {
     const auto i = static_cast<std::size_t>(match.feature);
-    if (frame.point[i] != kNone) continue;
-    const MapPoint& point = map.point(match.point);
-    const Vector3d p = frame.camera_from_world * point.p_world;
-    if (!(p.z() > 0)) continue;
-    const Vector3d sigma_m = frame.camera_from_world.linear() * point.sigma_m();
-    const double pixel_sigma =
-        std::hypot(noise.pixel(frame.octave(match.feature)), camera_.fx() * sigma_m.head<2>().norm() / p.z());
-    double error = (camera_.project(p) - frame.pixel[i]).squaredNorm() / (pixel_sigma * pixel_sigma);
-    if (frame.depth_m[i] > 0)
-      error += std::pow((p.z() - frame.depth_m[i]) / std::hypot(noise.depth_m(frame.depth_m[i]), sigma_m.z()), 2);
-    frame.deviates[i] = error > kChiSquared ? 1 : 0;
+    if (frame.point[i] == kNone)
+      frame.deviates[i] = deviates(map.point(match.point), frame, match.feature, camera_, noise);
   }
 }
 
@@ -118,7 +108,7 @@ void Tracking::add_up_told_motion() {
 /// As the filter says, or as it went on last. A velocity from few points is soon a mover's.
 Pose Tracking::expected_motion() const { return told_since_pose_ ? *told_since_pose_ : motion_; }
 
-std::vector<PointId> Tracking::local_points(const Map& map, span<const PointId> seen) const {
+std::vector<PointId> Tracking::points_around(const Map& map, span<const PointId> seen) const {
   std::vector<KeyframeId> keyframes;
   for (const auto& [id, shared] : map.that_see(seen, options.fewest_shared)) {
     keyframes.push_back(id);

@@ -55,6 +55,8 @@ class Tracking {
   /// Where the last frame with a pose is, by the map as it is now.
   Pose last_camera_from_world(const Map& map) const;
   KeyframeId reference() const { return reference_; }
+  /// Points of the map around where the last frame with a pose was looked for.
+  span<const PointId> local_points() const { return local_; }
   std::size_t fitting() const { return fitting_; }
   int misses() const { return misses_; }
 
@@ -63,13 +65,14 @@ class Tracking {
                    const MeasurementNoise& noise);
   Pose expected_motion() const;
   void add_up_told_motion();
-  std::vector<PointId> local_points(const Map& map, span<const PointId> seen) const;
+  std::vector<PointId> points_around(const Map& map, span<const PointId> seen) const;
   void see(const Frame& frame, const Map& map, span<const PointMatch> matches, const MeasurementNoise& noise);
   bool refine(Frame& frame, Map& map, span<const PointId> local, const MeasurementNoise& noise);
   void mark_deviating(Frame& frame, const Map& map, span<const PointMatch> matches,
                       const MeasurementNoise& noise) const;
 
   Camera camera_;
+  std::vector<PointId> local_;
   std::vector<PointMatch> matches_;
   std::vector<PointObservation> observations_;
   std::vector<std::uint8_t> inlier_;

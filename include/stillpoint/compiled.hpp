@@ -69,6 +69,7 @@ struct CompiledFilter {
   static const FrameResult& filter_frame(Engine& engine, const FrameView& frame, span<const Vector2f> pixels);
   static void feedback(Engine& engine, const Pose& world_from_camera);
   static void expect_motion(Engine& engine, const Pose& current_from_reference);
+  static void expect_dynamic(Engine& engine, span<const std::uint8_t> is_dynamic);
   static void predicted_keep_mask(Engine& engine, double timestamp_s, int margin_px, ImageBuffer& mask);
   static std::string options_error(Engine& engine);
   static void reset(Engine& engine);
@@ -120,6 +121,7 @@ class FrameFilter<CompiledPolicies> {
   }
   void feedback(const Pose& world_from_camera) { Compiled::feedback(*engine_, world_from_camera); }
   void expect_motion(const Pose& current_from_reference) { Compiled::expect_motion(*engine_, current_from_reference); }
+  void expect_dynamic(span<const std::uint8_t> is_dynamic) { Compiled::expect_dynamic(*engine_, is_dynamic); }
   void predicted_keep_mask(double timestamp_s, int margin_px, ImageBuffer& mask) {
     Compiled::predicted_keep_mask(*engine_, timestamp_s, margin_px, mask);
   }

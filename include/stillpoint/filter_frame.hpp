@@ -99,6 +99,15 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   /// longer than 100 m, is none (`is_plausible_motion`).
   void expect_motion(const Pose& current_from_reference) { expectation_.expect(current_from_reference); }
 
+  /// Which keypoints of the frame that was filtered last move, by the host's own map: evidence of more views than the
+  /// filter keeps. The memory takes it for the coming frame; one that remembers nothing does not.
+  /// @param is_dynamic  one byte per keypoint, 1: moves. Of another length, or after a frame that was not judged: no
+  ///                    evidence.
+  void expect_dynamic(span<const std::uint8_t> is_dynamic) {
+    if (is_dynamic.size() == result_.keep().size() && judged(result_.status()))
+      stillpoint::expect_dynamic(memory, is_dynamic);
+  }
+
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
   /// that its budget goes to what stands still. Everywhere, where the last frame was not judged or an option is out of
   /// its range. It knows no keep-floor.

@@ -19,15 +19,19 @@
 // | Backend  | void expect_motion(const Pose& current_from_reference) | optional, before `track`: the filter's own    |
 // |          |                                                        | motion since the last frame, in metres        |
 // | Backend  | void feedback(const Pose& world_from_camera)           | optional: the pose it returned                |
+// | Backend  | Flags dynamic_features()                               | optional, after `track`: one byte per keypoint|
+// |          |                                                        | of `extract`, 1: moves, by the backend's map; |
+// |          |                                                        | converts to span<const std::uint8_t>          |
 // | Filter   | Result filter_frame(const FrameView&,                  | judges them; may return a reference           |
 // |          |                     const Keypoints&)                  |                                               |
 // | Result   | keep(), converts to span<const std::uint8_t>           | one byte per keypoint, 0 drops                 |
 // | Result   | const Motion& motion()                                 | optional: what `expect_motion` is told        |
 // | Filter   | void feedback(const Pose& world_from_camera)           | optional: helps to predict                    |
+// | Filter   | void expect_dynamic(span<const std::uint8_t>)          | optional: what `dynamic_features` returned    |
 // clang-format on
 //
-// Each is called once a frame, in the order of `track` below, `feedback` only where there is a pose, `expect_motion`
-// only where the filter knows the motion and its length.
+// Each is called once a frame, in the order of `track` below, `feedback` and `dynamic_features` only where there is a
+// pose, `expect_motion` only where the filter knows the motion and its length.
 
 #include <cstdint>
 #include <optional>
@@ -83,6 +87,14 @@ template <class B> struct has_expect_motion<B, std::void_t<decltype(
 template <class R, class = void> struct has_motion : std::false_type {};
 template <class R> struct has_motion<R, std::enable_if_t<std::is_convertible_v<decltype(
     std::declval<const R&>().motion()), const Motion&>>> : std::true_type {};
+
+template <class B, class = void> struct has_dynamic_features : std::false_type {};
+template <class B> struct has_dynamic_features<B, std::enable_if_t<std::is_convertible_v<decltype(
+    std::declval<B&>().dynamic_features()), span<const std::uint8_t>>>> : std::true_type {};
+
+template <class F, class = void> struct has_expect_dynamic : std::false_type {};
+template <class F> struct has_expect_dynamic<F, std::void_t<decltype(
+    std::declval<F&>().expect_dynamic(std::declval<span<const std::uint8_t>>()))>> : std::true_type {};
 
 template <class T, class = void> struct has_feedback : std::false_type {};
 template <class T> struct has_feedback<T, std::void_t<decltype(
@@ -195,6 +207,8 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
       if (tells_filter) filter.feedback(world_from_camera);
     }
     if constexpr (has_feedback<Backend>::value) backend.feedback(world_from_camera);
+    if constexpr (has_dynamic_features<Backend>::value && has_expect_dynamic<Filter>::value)
+      filter.expect_dynamic(backend.dynamic_features());
   }
 
   std::vector<float> weights_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "stillpoint/core/capabilities.hpp"
@@ -61,6 +62,7 @@ class EvidenceMemory {
                                                 : steps.before(here, depth_m, tolerance_m, matches.predicted[i]);
       recalled_[i] = look_up(points, pixel, depth_m, tolerance_m);
       if (settled(matches.was_there[i], matches.space_trust[i])) recalled_[i].suspicion = 0;
+      recalled_[i].by_map = evidence_of_map(pixel, depth_m, tolerance_m);
       remembered.trust[i] = std::min(matches.space_trust[i], trust(recalled_[i].suspicion));
       remembered.log_odds[i] = recalled_[i].log_odds;
     }
@@ -79,6 +81,7 @@ class EvidenceMemory {
     const Matches& matches = observations.matches;
     pixel_.clear();
     remembered_.clear();
+    dynamic_.clear();
     const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
     const auto suspicion_gain = static_cast<float>(1.0 - std::exp(-matches.elapsed_s / options.suspicion_rise_s));
     const float cautious = caution_at(persistence);
@@ -87,7 +90,7 @@ class EvidenceMemory {
       Label& label = labels[i];
       const float now = label.log_odds;
       const float least = -kMostLogOdds * (1.0f - kRestlessness * before.suspicion);
-      label.log_odds = std::clamp(persistence * before.log_odds + now - cautious, least, kMostLogOdds);
+      label.log_odds = std::clamp(persistence * before.log_odds + now + before.by_map - cautious, least, kMostLogOdds);
       label.trust = observations.remembered.trust[i];
       decide(label, now);
       float suspicion = before.suspicion;
@@ -100,9 +103,20 @@ class EvidenceMemory {
     }
   }
 
+  /// Features of the last frame that move by the host's map: evidence against what is near them in the coming frame.
+  /// The map must say so in every frame.
+  /// @param is_dynamic  one byte per keypoint
+  void expect_dynamic(span<const std::uint8_t> is_dynamic) {
+    dynamic_.clear();
+    const std::size_t count = std::min(is_dynamic.size(), remembered_.size());
+    for (std::size_t i = 0; i < count; ++i)
+      if (is_dynamic[i] != 0) dynamic_.push_back(remembered_[i]);
+  }
+
   void reset() noexcept {
     pixel_.clear();
     remembered_.clear();
+    dynamic_.clear();
     recalled_.clear();
     recalled_of_cell_.clear();
   }
@@ -113,6 +127,7 @@ class EvidenceMemory {
   static constexpr float kSuspectAbove = 2.0f;  // log-odds that make a feature suspect, nats
   static constexpr float kRestlessness =
       0.6f;  // share of the lower bound that full suspicion takes away: it may restart
+  static constexpr float kMapEvidence = 6.0f;    // nats: several points of a map outweigh two frames that agree
   static constexpr float kLeastTrust = 0.01f;    // say of a feature of full suspicion
   static constexpr float kFeature_px = 15.0f;    // how far a feature may have moved and still be recognised
   static constexpr float kNeighbour_px = 25.0f;  // neighbours that hand suspicion on
@@ -124,6 +139,7 @@ class EvidenceMemory {
   struct Memory {
     float log_odds = 0;
     float suspicion = 0;  ///< 0 to 1
+    float by_map = 0;     ///< nats, of a host's map
   };
 
   void remember(const Vector2f& pixel, double depth_m, const Memory& memory, bool is_feature) {
@@ -155,6 +171,16 @@ class EvidenceMemory {
     return memory;
   }
 
+  /// Of what the map called dynamic near a place, on its surface.
+  float evidence_of_map(const Vector2f& pixel, double depth_m, double tolerance_m) const noexcept {
+    for (const RememberedPoint& point : dynamic_) {
+      if ((point.pixel - pixel).squaredNorm() > kNeighbour_px * kNeighbour_px) continue;
+      const bool has_depths = depth_m > 0 && point.depth_m > 0;
+      if (!has_depths || std::abs(static_cast<double>(point.depth_m) - depth_m) < tolerance_m) return kMapEvidence;
+    }
+    return 0.0f;
+  }
+
   static void decide(Label& label, float now) noexcept {
     const bool dynamic = label.log_odds > kDropAbove;
     label.keep = !dynamic;
@@ -172,6 +198,7 @@ class EvidenceMemory {
   // Of the last frame, its features before its surface cells.
   std::vector<Vector2f> pixel_;
   std::vector<RememberedPoint> remembered_;
+  std::vector<RememberedPoint> dynamic_;  // those of them that move by the host's map
   std::vector<Memory> recalled_, recalled_of_cell_;
 };
 

@@ -5,6 +5,7 @@
 // What a stage may offer on top of its contract: found by its form, used where it is there. docs/extending.md tells it
 // in prose.
 
+#include <cstdint>
 #include <type_traits>
 #include <utility>
 
@@ -49,6 +50,10 @@ template <class P, class Camera, class = void> struct observes : std::false_type
 template <class P, class Camera> struct observes<P, Camera, std::void_t<decltype(std::declval<P&>().observe(
     std::declval<const Observations&>(), std::declval<const Motion&>(), std::declval<const Camera&>()))>> : std::true_type {};
 
+template <class P, class = void> struct expects_dynamic : std::false_type {};
+template <class P> struct expects_dynamic<P, std::void_t<decltype(std::declval<P&>().expect_dynamic(
+    std::declval<span<const std::uint8_t>>()))>> : std::true_type {};
+
 template <class P, class = void> struct resets : std::false_type {};
 template <class P> struct resets<P, std::void_t<decltype(std::declval<P&>().reset())>> : std::true_type {};
 
@@ -78,6 +83,12 @@ void choose_keyframes([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const 
     roughly.current_from_reference = current_from_reference;
     matcher.choose_keyframes(history, frame, history.filter_from_current(roughly), camera, noise, matches, workspace);
   }
+}
+
+/// After the host's tracking: a memory may take what the host's map says of the last frame's keypoints.
+template <class Memory>
+void expect_dynamic([[maybe_unused]] Memory& memory, [[maybe_unused]] span<const std::uint8_t> is_dynamic) {
+  if constexpr (expects_dynamic<Memory>::value) memory.expect_dynamic(is_dynamic);
 }
 
 /// Before the motion: a memory may know features and surfaces.

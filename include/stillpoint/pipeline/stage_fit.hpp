@@ -39,6 +39,7 @@ STILLPOINT_HAS_NAME(reproject_into_past);
 STILLPOINT_HAS_NAME(refine);
 STILLPOINT_HAS_NAME(recall);
 STILLPOINT_HAS_NAME(learn);
+STILLPOINT_HAS_NAME(expect_dynamic);
 STILLPOINT_HAS_NAME(observe);
 STILLPOINT_HAS_NAME(survey);
 STILLPOINT_HAS_NAME(look_back);
@@ -152,6 +153,9 @@ struct OptionalMembers {
       "MotionPrior&, Motion&, Workspace&); see docs/extending.md");
   static_assert(recalls<typename Policies::Memory>::value || !detail::has_recall<typename Policies::Memory>::value,
       "stillpoint: Policies::Memory has a member recall, but not void recall(const Matches&, Remembered&, Workspace&); see "
+      "docs/extending.md");
+  static_assert(expects_dynamic<typename Policies::Memory>::value || !detail::has_expect_dynamic<typename Policies::Memory>::value,
+      "stillpoint: Policies::Memory has a member expect_dynamic, but not void expect_dynamic(span<const std::uint8_t>); see "
       "docs/extending.md");
   static_assert(observes<typename Policies::Prior, Camera>::value || !detail::has_observe<typename Policies::Prior>::value,
       "stillpoint: Policies::Prior has a member observe, but not void observe(const Observations&, const Motion&, const "

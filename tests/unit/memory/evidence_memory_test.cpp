@@ -97,6 +97,25 @@ TEST_F(EvidenceMemoryTest, ParkedMovingParked) {
   }
 }
 
+// A host's map outweighs two frames that agree, for what is near on the same surface, and for one frame.
+TEST_F(EvidenceMemoryTest, AHostsMapIsEvidence) {
+  const std::vector<Feature> features = {{Vector2f(50, 50)}, {Vector2f(60, 50)}, {Vector2f(50, 60), 3.0}};
+  frame(features, {-3, -3, -3});
+  const std::vector<std::uint8_t> is_dynamic = {1, 0, 0};
+  memory_.expect_dynamic(is_dynamic);
+  frame(features, {-3, -3, -3});
+  EXPECT_FALSE(labels_[0].keep);
+  EXPECT_EQ(labels_[0].reason, Reason::remembered);
+  EXPECT_FALSE(labels_[1].keep) << "its neighbour";
+  EXPECT_TRUE(labels_[2].keep) << "behind it";
+  frame(features, {-3, -3, -3});
+  EXPECT_TRUE(labels_[0].keep) << "the map no longer says so";
+  memory_.expect_dynamic(is_dynamic);
+  memory_.reset();
+  frame(features, {-3, -3, -3});
+  EXPECT_TRUE(labels_[0].keep);
+}
+
 TEST_F(EvidenceMemoryTest, SaysWhatDecided) {
   frame({{Vector2f(50, 50)}, {Vector2f(150, 50)}}, {3, -3});
   EXPECT_EQ(labels_[0].reason, Reason::inconsistent);
