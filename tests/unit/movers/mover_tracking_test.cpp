@@ -162,7 +162,7 @@ TEST(MoverTracking, WhoIsCoveredForHalfASecondKeepsHisIdentifier) {
 }
 
 TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASecond) {
-  const SceneRun run(synthetic::pushed_box(vga(105)));  // at half the size, noise hides so slow a turn
+  const SceneRun run(synthetic::pushed_box());  // at half the size, noise hides so slow a turn
   const MoverFigures figures = run.score.figures(0);
   EXPECT_EQ(figures.switches, 0u);
   EXPECT_GE(*figures.found_share(), 0.8);
