@@ -116,8 +116,8 @@ MoverSequence recorded(const std::filesystem::path& folder) {
       const double depth_m =
           frame.depth.at<std::uint16_t>(cvRound(keypoint.pt.y), cvRound(keypoint.pt.x)) / frame.depth_factor;
       if (!(depth_m > 0) || !frame.world_from_camera) continue;
-      const Vector3d point = *frame.world_from_camera *
-                             sequence.camera.back_project(Vector2d(keypoint.pt.x, keypoint.pt.y), depth_m);
+      const Vector3d point =
+          *frame.world_from_camera * sequence.camera.back_project(Vector2d(keypoint.pt.x, keypoint.pt.y), depth_m);
       double nearest_m = 0.8;
       for (int o = 0; o < object_count; ++o) {
         const Vector3d local = inverted(frame.objects[static_cast<std::size_t>(o)].world_from_object) * point;
@@ -166,8 +166,8 @@ void measure(const std::string& name, const MoverSequence& sequence) {
   }
   for (std::size_t o = 0; o < sequence.object_count; ++o) {
     const MoverFigures figures = score.figures(o);
-    std::printf("| %s | %zu | %zu | %.1f | %zu | %.1f | %.2f | %.3f | %.3f | %.2f | %.3f | %.1f | %.1f |\n", name.c_str(), o,
-                figures.frames, 100.0 * figures.found_share().value_or(0.0), figures.switches,
+    std::printf("| %s | %zu | %zu | %.1f | %zu | %.1f | %.2f | %.3f | %.3f | %.2f | %.3f | %.1f | %.1f |\n",
+                name.c_str(), o, figures.frames, 100.0 * figures.found_share().value_or(0.0), figures.switches,
                 100.0 * median(figures.carried_m), median(figures.carried_deg), median(figures.speed_m_s),
                 median(figures.velocity_m_s), 1000.0 * error_statistics(figures.step_m).rmse,
                 error_statistics(figures.step_deg).rmse,
@@ -185,20 +185,26 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   std::vector<std::string> names(argv + 1, argv + argc);
   if (names.empty())
-    names = {"kitchen_walk", "kitchen_box", "kitchen_static", "kitchen_round", "walking_people", "pushed_box",
-             "static_room"};
+    names = {"kitchen_walk",   "kitchen_box", "kitchen_static", "kitchen_round",
+             "walking_people", "pushed_box",  "static_room"};
   try {
     std::printf(
         "| sequence | object | frames | found, %% | switches | carried 1 s, cm | carried 1 s, deg | speed, m/s | "
         "velocity, m/s | RPE, mm | RPE, deg | frames with movers, %% | share of time, %% |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& name : names) {
-      if (name == "walking_people") measure(name, rendered(synthetic::walking_people()));
-      else if (name == "crossing_people") measure(name, rendered(synthetic::crossing_people()));
-      else if (name == "pushed_box") measure(name, rendered(synthetic::pushed_box()));
-      else if (name == "static_room") measure(name, rendered(synthetic::static_room()));
-      else if (name == "five_people") measure(name, rendered(synthetic::five_people()));
-      else measure(name, recorded(std::filesystem::path(STILLPOINT_SHARED_DATA) / name));
+      if (name == "walking_people")
+        measure(name, rendered(synthetic::walking_people()));
+      else if (name == "crossing_people")
+        measure(name, rendered(synthetic::crossing_people()));
+      else if (name == "pushed_box")
+        measure(name, rendered(synthetic::pushed_box()));
+      else if (name == "static_room")
+        measure(name, rendered(synthetic::static_room()));
+      else if (name == "five_people")
+        measure(name, rendered(synthetic::five_people()));
+      else
+        measure(name, recorded(std::filesystem::path(STILLPOINT_SHARED_DATA) / name));
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stillpoint_movers: %s\n", error.what());

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// 04_movers: what moves, where, and how fast? Two people, rendered, walk past a hand-held RGB-D camera; where they are
-// seen is said by the boxes of a perfect detector, which name them.
+// 04_movers: what moves, where, and how fast? Two rendered people cross; a perfect detector names them.
 
 #include <cstdio>
 #include <opencv2/features2d.hpp>
@@ -14,7 +13,7 @@
 #include <vector>
 
 int main() {
-  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::walking_people());
+  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::crossing_people());
   stillpoint::SyntheticFrame frame;
   const auto orb = cv::ORB::create(1000);
   // [movers]
@@ -25,10 +24,11 @@ int main() {
     std::vector<cv::KeyPoint> keypoints;
     orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
     for (const auto& box : frame.boxes) {
-      stillpoint::Detection& person = filter.prior.detections.emplace_back();
+      stillpoint::Detection person;
       person.box = {float(box.x), float(box.y), float(box.width), float(box.height)};
-      person.class_index = 0;
       person.mobility = stillpoint::Mobility::dynamic;
+      person.class_index = 0;
+      filter.prior.detections.push_back(person);
     }
     // [movers]
     for (const stillpoint::Mover& mover : filter.filter_frame(frame.view(), keypoints).movers())

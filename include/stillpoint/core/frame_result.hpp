@@ -57,8 +57,8 @@ class FrameResult {
   span<const std::uint32_t> features(const Mover& mover) const noexcept {
     return {movers_.feature.data() + mover.first_feature, mover.feature_count};
   }
-  /// Paints a mask of the image's size: 255 keeps, 0 within `radius_px` of the features of a mover of this result and of
-  /// the filter's own corners on it.
+  /// Paints a mask of the image's size: 255 keeps, 0 within `radius_px` of the features of a mover of this result and
+  /// of the filter's own corners on it.
   void mask(const Mover& mover, ImageBuffer& mask, int radius_px = 12) const {
     keep_everywhere(width_, height_, mask);
     for (std::size_t k = mover.first_pixel; k < mover.first_pixel + mover.pixel_count; ++k)

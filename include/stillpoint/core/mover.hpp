@@ -33,10 +33,10 @@ constexpr const char* to_string(MoverState state) noexcept {
 struct Mover {
   std::uint32_t id = 0;  ///< from 1 on; kept while the object is seen and for two seconds after
   MoverState state = MoverState::moving;
-  Box box;                                ///< around its features, pixels
-  Vector3d centroid = Vector3d::Zero();   ///< of its points, in the current camera, metres
-  Vector3d extent_m = Vector3d::Zero();   ///< of its points along the camera's axes
-  Vector3d velocity = Vector3d::Zero();   ///< of the centroid relative to the world, m/s, by the filter's own motion
+  Box box;                               ///< around its features, pixels
+  Vector3d centroid = Vector3d::Zero();  ///< of its points, in the current camera, metres
+  Vector3d extent_m = Vector3d::Zero();  ///< of its points along the camera's axes
+  Vector3d velocity = Vector3d::Zero();  ///< of the centroid relative to the world, m/s, by the filter's own motion
   Matrix3d velocity_covariance = Matrix3d::Zero();  ///< (m/s)²
   /// Where a point of the object in the reference camera is in the current one. Without `has_rotation` the object keeps
   /// its orientation in the world.
@@ -56,10 +56,10 @@ struct Mover {
 struct Movers {
   static constexpr std::int32_t kNone = -1;
 
-  std::vector<Mover> list;                ///< in the order of their identifiers
-  std::vector<std::uint32_t> feature;     ///< indices of the host's keypoints, mover by mover
-  std::vector<Vector2f> pixel;            ///< of the keypoints and of the filter's own corners, mover by mover
-  std::vector<std::int32_t> of_feature;   ///< index into `list` of each host's keypoint, or `kNone`
+  std::vector<Mover> list;               ///< in the order of their identifiers
+  std::vector<std::uint32_t> feature;    ///< indices of the host's keypoints, mover by mover
+  std::vector<Vector2f> pixel;           ///< of the keypoints and of the filter's own corners, mover by mover
+  std::vector<std::int32_t> of_feature;  ///< index into `list` of each host's keypoint, or `kNone`
 
   /// Nothing is allocated later, as long as there are not more.
   void reserve(std::size_t features, std::size_t movers) {

@@ -53,8 +53,8 @@ struct DynamicPoints {
 class MotionGroups {
  public:
   static constexpr std::int32_t kNone = -1;
-  static constexpr double kReach_m = 0.18;      // between neighbouring features of one object
-  static constexpr double kSlack_m_s = 0.25;    // limbs and turns differ so much from their object's translation
+  static constexpr double kReach_m = 0.18;    // between neighbouring features of one object
+  static constexpr double kSlack_m_s = 0.25;  // limbs and turns differ so much from their object's translation
 
   span<std::int32_t> of_point;  ///< group of each point, 0 to `count` - 1, or `kNone`
   std::size_t count = 0;
@@ -150,7 +150,8 @@ class MotionGroups {
   }
 
   /// Pieces that hang together with `seed` and mostly move by `translation`; what has no step goes with its neighbour.
-  float grow(std::size_t seed, const Vector3d& translation, span<std::uint8_t> chosen, span<std::uint32_t> queue) const {
+  float grow(std::size_t seed, const Vector3d& translation, span<std::uint8_t> chosen,
+             span<std::uint32_t> queue) const {
     std::fill(chosen.begin(), chosen.end(), std::uint8_t{0});
     float total = vote(seed, translation).support;
     std::size_t head = 0, tail = 0;
@@ -173,7 +174,8 @@ class MotionGroups {
 
   bool peel(Workspace& workspace) {
     const Workspace::Scope scope(workspace);
-    const span<std::uint8_t> chosen = workspace.take<std::uint8_t>(pieces_), best = workspace.take<std::uint8_t>(pieces_);
+    const span<std::uint8_t> chosen = workspace.take<std::uint8_t>(pieces_),
+                             best = workspace.take<std::uint8_t>(pieces_);
     const span<std::uint32_t> queue = workspace.take<std::uint32_t>(pieces_);
     float most = static_cast<float>(kFewestSupport);
     bool found = false;

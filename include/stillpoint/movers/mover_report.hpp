@@ -24,8 +24,8 @@ namespace stillpoint {
 class MoverReport {
  public:
   template <class Camera>
-  static void write(const std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features,
-                    const Regions& regions, Movers& result, Workspace& workspace) {
+  static void write(std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features, const Regions& regions,
+                    Movers& result, Workspace& workspace) {
     const Workspace::Scope scope(workspace);
     const Matches& matches = features.matches;
     take_in_depthless(features, workspace);
@@ -36,7 +36,7 @@ class MoverReport {
     std::sort(order.begin(), order.begin() + count,
               [&](std::size_t a, std::size_t b) { return objects[a].mover.id < objects[b].mover.id; });
     for (const std::size_t o : order.first(count)) {
-      const TrackedObject& object = objects[o];
+      TrackedObject& object = objects[o];
       Mover mover = object.mover;
       mover.velocity = object.linear.velocity();
       mover.velocity_covariance = object.linear.covariance();
@@ -52,6 +52,8 @@ class MoverReport {
       mover.feature_count = result.feature.size() - mover.first_feature;
       mover.pixel_count = result.pixel.size() - mover.first_pixel;
       name(features, regions, static_cast<std::int32_t>(o), mover, workspace);
+      object.mover.class_index = mover.class_index;  // kept for frames in which no detector speaks
+      object.mover.confidence = mover.confidence;
       if (object.is_seen)
         mover.box = box_of({result.pixel.data() + mover.first_pixel, mover.pixel_count});
       else
@@ -85,8 +87,7 @@ class MoverReport {
       if (found[i] != kNone) features.object_of[i] = found[i];
   }
 
-  /// The detection that holds most of its features, and at least half of them, names it; a name is kept where no
-  /// detector speaks.
+  /// The detection that holds most of its features, and at least half of them, names it.
   template <class Camera>
   static void name(const MovingFeatures<Camera>& features, const Regions& regions, std::int32_t index, Mover& mover,
                    Workspace& workspace) {
@@ -96,9 +97,9 @@ class MoverReport {
     for (std::size_t i = 0; i < features.matches.size(); ++i)
       if (features.object_of[i] == index)
         for (std::size_t r = 0; r < held.size(); ++r)
-          held[r] += regions.detections[r].holds(features.matches.current.pixel[i], features.matches.current.depth_m[i]);
-    const std::size_t best =
-        static_cast<std::size_t>(std::max_element(held.begin(), held.end()) - held.begin());
+          held[r] +=
+              regions.detections[r].holds(features.matches.current.pixel[i], features.matches.current.depth_m[i]);
+    const std::size_t best = static_cast<std::size_t>(std::max_element(held.begin(), held.end()) - held.begin());
     if (2 * held[best] < mover.pixel_count) return;
     mover.class_index = regions.detections[best].class_index;
     mover.confidence = regions.detections[best].confidence;
@@ -121,8 +122,7 @@ class MoverReport {
     const span<Vector2f> pixels = workspace.take<Vector2f>(object.points.size(), Vector2f::Zero());
     std::size_t count = 0;
     for (const Vector3d& point : object.points)
-      if (point.z() > kNearest_m)
-        pixels[count++] = camera.distort(camera.project(point)).template cast<float>();
+      if (point.z() > kNearest_m) pixels[count++] = camera.distort(camera.project(point)).template cast<float>();
     return box_of(pixels.first(count));
   }
 };

@@ -102,8 +102,7 @@ class MoverTracking {
           [&] { return features.velocity(i, followed); }, objects_);
       if (object == kNone) {
         if (is_dynamic) loose.add(i, features);
-      } else if (is_dynamic ||
-                 objects_[static_cast<std::size_t>(object)].mean_speed() < ObjectAssociation::kSlow_m_s) {
+      } else if (is_dynamic || objects_[static_cast<std::size_t>(object)].mean_speed() < ObjectAssociation::kSlow_m_s) {
         features.object_of[i] = object;
       }
     }
@@ -128,8 +127,7 @@ class MoverTracking {
       for (const std::uint32_t k : group.members)
         group.appearance.add(features.frame.gray, features.matches.current.pixel[loose.feature[k]]);
       std::int32_t object = ObjectAssociation::touched(group, loose, objects_, is_seen);
-      if (object == kNone)
-        object = ObjectAssociation::seen_again(group, features.frame.timestamp_s, objects_, is_seen);
+      if (object == kNone) object = ObjectAssociation::seen_again(group, features.frame.timestamp_s, objects_, is_seen);
       if (object == kNone && count >= options.fewest_features && objects_.size() < kMostObjects)
         object = begin(group, features.frame.timestamp_s);
       if (object == kNone) continue;
@@ -152,7 +150,8 @@ class MoverTracking {
   void confirm(TrackedObject& object) {
     constexpr std::size_t kFewest = 12;
     constexpr int kFewestFrames = 2;
-    if (object.is_confirmed || !object.is_seen || object.members < kFewest || object.seen_frames < kFewestFrames) return;
+    if (object.is_confirmed || !object.is_seen || object.members < kFewest || object.seen_frames < kFewestFrames)
+      return;
     const double by_members = std::clamp(std::sqrt(20.0 / static_cast<double>(object.members)), 0.4, 1.0);
     const double by_speed = object.mean_speed() > ObjectAssociation::kSlow_m_s ? 1.0 : 3.0;
     if (!(object.path.norm() > options.least_path_m * by_members * by_speed)) return;

@@ -70,8 +70,8 @@ struct MovingFeatures {
     if (beside == matches.size()) return {};
     FeatureVelocity velocity;
     velocity.is_known = true;
-    velocity.value = (matches.current.point[beside] - current_from_reference * matches.reference.point[beside]) /
-                     elapsed_s();
+    velocity.value =
+        (matches.current.point[beside] - current_from_reference * matches.reference.point[beside]) / elapsed_s();
     velocity.depth_sigma_m_s =
         std::hypot(matches.current.depth_sigma_m[beside], matches.reference.depth_sigma_m[beside]) / elapsed_s();
     return velocity;

@@ -43,7 +43,8 @@ class ObjectPoints {
 
 /// An object that is followed. Vectors are in the axes of the last frame's camera.
 struct TrackedObject {
-  static constexpr double kAcceleration_m_s2 = 4.0, kAngular_rad_s2 = 4.0;  // standard deviations: people start and stop
+  static constexpr double kAcceleration_m_s2 = 4.0,
+                          kAngular_rad_s2 = 4.0;  // standard deviations: people start and stop
 
   Mover mover;
   ObjectPoints points;

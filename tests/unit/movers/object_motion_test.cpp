@@ -95,8 +95,9 @@ TEST(ObjectMotion, PointsOnALineAndFewPointsDetermineNoTurn) {
   EXPECT_FALSE(ObjectMotionEstimator::translation({line.data(), 2}, workspace));
 }
 
-// At (1, 0, 2) the ray is (½, 0, 1). Seen at (0.5, 0, 1) m/s, that is 1 m/s along it: with 0.2 m/s of noise along the ray
-// 0.4 m/s are left of the difference to standing still, three standard deviations being noise. Across it nothing is.
+// At (1, 0, 2) the ray is (½, 0, 1). Seen at (0.5, 0, 1) m/s, that is 1 m/s along it: with 0.2 m/s of noise along the
+// ray 0.4 m/s are left of the difference to standing still, three standard deviations being noise. Across it nothing
+// is.
 TEST(FeatureVelocity, NoiseAlongTheRayIsTakenOff) {
   const FeatureVelocity velocity{true, {0.5, 0, 1}, 0.2};
   EXPECT_NEAR(velocity.difference(Vector3d::Zero(), {1, 0, 2}), 0.4, 1e-12);
