@@ -25,6 +25,7 @@ class CMakeBuild(build_ext):
                    "-DSTILLPOINT_BUILD_TESTS=OFF", "-DSTILLPOINT_BUILD_BENCHMARKS=OFF", "-DSTILLPOINT_BUILD_DOCS=OFF",
                    "-DSTILLPOINT_BUILD_SHIM=OFF", f"-DPython_EXECUTABLE={sys.executable}",
                    f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"] + shlex.split(os.environ.get("CMAKE_ARGS", ""))
+        (package / "stillpoint_run").unlink(missing_ok=True)  # of an earlier build with other options
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
         for command in (["cmake", "-S", ROOT, "-B", build, *options],
                         ["cmake", "--build", build, "--target", "stillpoint_python_package", "--parallel", jobs],

@@ -195,8 +195,6 @@ int main(int argc, char** argv) {
     for (const std::string& name : names) {
       if (name == "walking_people") measure(name, rendered(synthetic::walking_people()));
       else if (name == "crossing_people") measure(name, rendered(synthetic::crossing_people()));
-      else if (name == "crossing_small") { synthetic::SceneOptions o; o.width=320; o.height=240; o.frames=75; o.seed=1; measure(name, rendered(synthetic::crossing_people(o))); }
-      else if (name == "box_small") { synthetic::SceneOptions o; o.width=320; o.height=240; o.frames=75; o.seed=1; measure(name, rendered(synthetic::pushed_box(o))); }
       else if (name == "pushed_box") measure(name, rendered(synthetic::pushed_box()));
       else if (name == "static_room") measure(name, rendered(synthetic::static_room()));
       else if (name == "five_people") measure(name, rendered(synthetic::five_people()));

@@ -10,7 +10,6 @@ if(NOT Doxygen_FOUND)
   return()
 endif()
 
-set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/README.md")
 set(DOXYGEN_FULL_PATH_NAMES YES)
 set(DOXYGEN_STRIP_FROM_PATH "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/shim/include" "${PROJECT_SOURCE_DIR}")
 set(DOXYGEN_STRIP_FROM_INC_PATH "${PROJECT_SOURCE_DIR}/include" "${PROJECT_SOURCE_DIR}/shim/include")
@@ -26,7 +25,15 @@ set(DOXYGEN_VERBATIM_VARS DOXYGEN_FILTER_PATTERNS)
 # A comment may leave out a parameter that its type and name explain; what it says has to be true.
 set(DOXYGEN_WARN_IF_INCOMPLETE_DOC NO)
 set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
-doxygen_add_docs(stillpoint_docs README.md CONTRIBUTING.md docs include shim/README.md shim/include
+
+option(STILLPOINT_DOCS_WITH_GUIDES "The reference has the guides as pages, too; docs/site.sh has them beside it" ON)
+mark_as_advanced(STILLPOINT_DOCS_WITH_GUIDES)
+set(guides "")
+if(STILLPOINT_DOCS_WITH_GUIDES)
+  set(DOXYGEN_USE_MDFILE_AS_MAINPAGE "${PROJECT_SOURCE_DIR}/README.md")
+  set(guides README.md CONTRIBUTING.md docs shim/README.md)
+endif()
+doxygen_add_docs(stillpoint_docs ${guides} include shim/include
   WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" COMMENT "Reference of stillpoint")
 
 if(STILLPOINT_BUILD_TESTS)

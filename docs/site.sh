@@ -17,17 +17,18 @@ bash tests/structure/links.sh .
 # The reference. It needs the headers alone, so that OpenCV is not asked for.
 cmake -S . -B "$site/reference" -G Ninja --log-level=WARNING -DSTILLPOINT_WITH_OPENCV=OFF -DSTILLPOINT_BUILD_TESTS=OFF \
   -DSTILLPOINT_BUILD_EXAMPLES=OFF -DSTILLPOINT_BUILD_BENCHMARKS=OFF -DSTILLPOINT_BUILD_SHIM=OFF \
-  -DSTILLPOINT_BUILD_COMPILED=OFF -DSTILLPOINT_BUILD_DOCS=ON > /dev/null
+  -DSTILLPOINT_BUILD_COMPILED=OFF -DSTILLPOINT_BUILD_DOCS=ON -DSTILLPOINT_DOCS_WITH_GUIDES=OFF > /dev/null
 rm -rf "$site/reference/html"
 cmake --build "$site/reference" --target stillpoint_docs
 
 # The guides, and what they link to, lie in the site as in the project: their links hold in both.
 # README.md says in which order the guides are read; a guide that it does not name comes after them.
 mapfile -t guides < <({ grep -oE '\]\(docs/[a-z0-9_]+\.md' README.md | sed 's|^](||'; printf '%s\n' docs/*.md; } | awk '!seen[$0]++')
+mapfile -t hosts < <(ls -d docs/hosts/*.md 2> /dev/null)
 mapfile -t fronts < <(ls -d python/README.md ros/README.md shim/README.md 2> /dev/null)
 mapfile -t design < <(ls -d docs/design/*.md 2> /dev/null)
 project=(CHANGELOG.md CONTRIBUTING.md SECURITY.md)
-pages=(README.md "${guides[@]}" "${design[@]}" "${fronts[@]}" "${project[@]}")
+pages=(README.md "${guides[@]}" "${hosts[@]}" "${design[@]}" "${fronts[@]}" "${project[@]}")
 
 rm -rf "$site/pages" "$site/html"
 mkdir -p "$site/pages"
@@ -41,11 +42,7 @@ find "$site/pages" -name '*.md' | while IFS= read -r page; do
   mv "$page.new" "$page"
 done
 cp -r "$site/reference/html" "$site/pages/reference"
-# Doxygen leaves the links of its copies of the guides as they are where they lead to a heading or to another file, and links
-# to #nested-classes on pages that have none.
-sed -i -E 's#href="(docs|examples|shim)/#href="../\1/#g; s#href="(hosts/|[a-z0-9_]+\.md)#href="../docs/\1#g
-  s#href="\.\./README\.md#href="../index.html#g; s#href="(\.\./[a-z0-9_/]+)\.md([\#"])#href="\1.html\2#g' \
-  "$site"/pages/reference/{index,md_*}.html
+# Doxygen links to #nested-classes on pages that have none.
 grep -l 'href="#nested-classes"' "$site"/pages/reference/*.html | xargs -r grep -L 'name="nested-classes"' |
   xargs -r sed -i 's/ href="#nested-classes"//'
 
@@ -60,6 +57,7 @@ section() {
   echo 'nav:'
   echo '  - Home: README.md'
   section Guides "${guides[@]}"
+  section Hosts "${hosts[@]}"
   section 'Other ways in' "${fronts[@]}"
   section Design "${design[@]}"
   echo '  - API reference: reference/index.html'

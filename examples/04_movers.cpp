@@ -4,7 +4,6 @@
 // 04_movers: what moves, where, and how fast? Two people, rendered, walk past a hand-held RGB-D camera; where they are
 // seen is said by the boxes of a perfect detector, which name them.
 
-#include <cmath>
 #include <cstdio>
 #include <opencv2/features2d.hpp>
 #include <stillpoint/filter_frame.hpp>
@@ -25,15 +24,12 @@ int main() {
     sequence.render(i, frame);
     std::vector<cv::KeyPoint> keypoints;
     orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
-    for (const auto& box : frame.boxes)  // class 0: person
-      filter.prior.detections.push_back({{float(box.x), float(box.y), float(box.width), float(box.height)},
-                                         stillpoint::Mobility::dynamic,
-                                         1.0f,
-                                         0,
-                                         INFINITY,
-                                         0,
-                                         nullptr,
-                                         0});
+    for (const auto& box : frame.boxes) {
+      stillpoint::Detection& person = filter.prior.detections.emplace_back();
+      person.box = {float(box.x), float(box.y), float(box.width), float(box.height)};
+      person.class_index = 0;
+      person.mobility = stillpoint::Mobility::dynamic;
+    }
     // [movers]
     for (const stillpoint::Mover& mover : filter.filter_frame(frame.view(), keypoints).movers())
       std::printf("frame %d: %s %u: %.1f m ahead, %.1f m/s to the %s (%s)\n", i,

@@ -79,7 +79,8 @@ inline std::vector<Moment> moments(const RunRecord& run, const Figures& figures)
               [wanted = warning](const FrameSummary& frame) { return frame.warnings.has(wanted); });
 
   const auto add_error = [&](const stillpoint::TrajectoryErrors& errors, const std::string& name) {
-    add_greatest(detail::values_of_frames(run, errors, errors.translation_m), 0.0,
+    constexpr double kLeast_m = 1e-4;  // less is no error
+    add_greatest(detail::values_of_frames(run, errors, errors.translation_m), kLeast_m,
                  [&name](double metres) { return name + ": " + length_words(metres); });
   };
   add_error(figures.filtered.drift, "greatest error with the filter");
@@ -92,10 +93,12 @@ inline std::vector<Moment> moments(const RunRecord& run, const Figures& figures)
   };
   add_greatest(detail::values_of_frames(run, share_dropped), 0.0,
                [](double share) { return "most features dropped: " + percent_words(share); });
-  add_greatest(
-      detail::values_of_frames(run, [](const FrameSummary& frame) { return frame.kept_score; }), 0.0, [](double score) {
-        return "what is kept agrees least with the camera's motion: median score " + stillpoint::format_fixed(score, 2);
-      });
+  constexpr double kAny = std::numeric_limits<double>::lowest();
+  add_greatest(detail::values_of_frames(run, [](const FrameSummary& frame) { return frame.kept_score; }), kAny,
+               [](double score) {
+                 return "what is kept agrees least with the camera's motion: median score " +
+                        stillpoint::format_fixed(score, 2);
+               });
   add_greatest(detail::values_of_frames(run,
                                         [](const FrameSummary& frame) -> std::optional<double> {
                                           const auto share = frame.moving.share();

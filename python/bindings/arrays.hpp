@@ -99,11 +99,12 @@ inline std::vector<stillpoint::Vector2f> pixels_of(const py::handle& keypoints) 
       throw py::type_error("keypoints are " + std::string(py::str(py::type::of(keypoints).attr("__name__"))) +
                            ", expected a NumPy array of float32 with shape (N, 2), or a list of cv2.KeyPoint");
     for (const py::handle& keypoint : py::reinterpret_borrow<py::sequence>(keypoints)) {
-      if (!py::hasattr(keypoint, "pt"))
+      const py::object pixel = py::getattr(keypoint, "pt", py::none());
+      if (!py::isinstance<py::tuple>(pixel) || py::len(pixel) != 2)
         throw py::type_error("keypoints[" + std::to_string(pixels.size()) + "] is " +
                              std::string(py::str(py::type::of(keypoint).attr("__name__"))) +
                              ", expected a cv2.KeyPoint; pixels are handed over as a NumPy array with shape (N, 2)");
-      const auto [x, y] = keypoint.attr("pt").cast<std::pair<double, double>>();
+      const auto [x, y] = pixel.cast<std::pair<double, double>>();
       pixels.emplace_back(static_cast<float>(x), static_cast<float>(y));
     }
     return pixels;

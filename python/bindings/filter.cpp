@@ -166,9 +166,10 @@ void bind_result(py::module_& module) {
       .def_readonly("keep", &Result::keep, "True keeps the feature.")
       .def_readonly("verdicts", &Result::verdicts, "Values of Verdict.")
       .def_readonly("reasons", &Result::reasons, "Values of Reason.")
-      .def_readonly("scores", &Result::scores, "Grows with disagreement; NaN where there is none.")
+      .def_readonly("scores", &Result::scores,
+                    "Disagreement with the camera's motion; NaN where the feature was not scored.")
       .def_readonly("probabilities", &Result::probabilities, "That the feature moves, 0 to 1; NaN if unknown.")
-      .def_readonly("weights", &Result::weights, "What the feature may say in an estimate, 0 to 1.")
+      .def_readonly("weights", &Result::weights, "Its weight in an estimate of the pose, 0 to 1.")
       .def_readonly("clusters", &Result::clusters, "Index of its cluster, -1 for none.")
       .def_readonly("depths_m", &Result::depths_m, "Its depth in metres, 0 for none.")
       .def_property_readonly("status", [](const Result& result) { return member("Status", result.frame.status()); })

@@ -141,13 +141,13 @@ class FrameResult:
         """Values of Reason."""
     @property
     def scores(self) -> npt.NDArray[np.float32]:
-        """Grows with disagreement; NaN where there is none."""
+        """Disagreement with the camera's motion; NaN where the feature was not scored."""
     @property
     def probabilities(self) -> npt.NDArray[np.float32]:
         """That the feature moves, 0 to 1; NaN if unknown."""
     @property
     def weights(self) -> npt.NDArray[np.float32]:
-        """What the feature may say in an estimate, 0 to 1."""
+        """Its weight in an estimate of the pose, 0 to 1."""
     @property
     def clusters(self) -> npt.NDArray[np.int32]:
         """Index of its cluster, -1 for none."""

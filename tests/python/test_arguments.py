@@ -166,6 +166,7 @@ GRAY, DEPTH, PIXELS = np.zeros((240, 320), np.uint8), np.ones((240, 320), np.uin
     (dict(keypoints=None), TypeError, "keypoints are NoneType, expected a NumPy array"),
     (dict(keypoints="points"), TypeError, "keypoints are str"),
     (dict(keypoints=[(1.0, 2.0)]), TypeError, r"keypoints\[0\] is tuple, expected a cv2.KeyPoint"),
+    (dict(keypoints=[type("Wrong", (), {"pt": 3.0})()]), TypeError, r"keypoints\[0\] is Wrong, expected a cv2.KeyPoint"),
     (dict(keypoints=PIXELS.astype(int)), TypeError, "keypoints have dtype int64, expected float32 or float64"),
     (dict(keypoints=PIXELS.T), stillpoint.Error, r"keypoints have shape \(2, 5\), expected \(N, 2\)"),
     (dict(keypoints=PIXELS.ravel()), stillpoint.Error, r"keypoints have shape \(10,\)"),

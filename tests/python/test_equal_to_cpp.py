@@ -67,18 +67,20 @@ def test_each_feature_of_each_frame(reference, frames, frame_filter, depth_facto
     assert statuses.count(stillpoint.Status.first_frame) == 2 and statuses.count(stillpoint.Status.ok) == len(frames) - 2
 
 
-def test_figures(reference, frames, frame_filter, camera, depth_factor):
-    figures = dict(line.split() for line in (reference / "figures.txt").read_text().splitlines())
+def test_figures(reference, frames):
+    """Compiled twice: another processor than x86-64 may round otherwise."""
+    lines = (line.split() for line in (reference / "figures.txt").read_text().splitlines())
+    figures = {name: pytest.approx(float(value), rel=1e-12) for name, value in lines}
     for load in (str, lambda file: np.loadtxt(file)):
         truth, estimate = load(reference / "groundtruth.txt"), load(reference / "estimate.txt")
         ate, rpe = stillpoint.ate(truth, estimate), stillpoint.rpe(truth, estimate)
-        assert ate.translation.rmse == float(figures["ate_rmse_m"])
-        assert ate.rotation.median == float(figures["ate_rotation_median_deg"])
-        assert rpe.translation.rmse == float(figures["rpe_rmse_m"])
+        assert ate.translation.rmse == figures["ate_rmse_m"]
+        assert ate.rotation.median == figures["ate_rotation_median_deg"]
+        assert rpe.translation.rmse == figures["rpe_rmse_m"]
     flags = [np.fromfile(reference / f"features_{i:02}.bin", FEATURE)["keep"].astype(bool) for i in range(len(frames))]
     score = stillpoint.recall((frame.labels, frame.pixels, keep) for frame, keep in zip(frames, flags))
-    assert score.recall == float(figures["recall"])
-    assert score.false_positive_rate == float(figures["false_positive_rate"])
+    assert score.recall == figures["recall"]
+    assert score.false_positive_rate == figures["false_positive_rate"]
 
 
 def test_beside_the_program(recorded, tmp_path):

@@ -48,23 +48,25 @@ class ObjectAssociation {
   static constexpr std::int32_t kNone = -1;
   static constexpr double kSlow_m_s = 0.15;  // below it nobody can tell by motion what belongs together
 
-  /// The object whose points are near most of the group, and that moves alike.
+  /// The object whose points are near most of the group, or near some of it where both move much alike.
   /// @param is_seen  of each object, in this frame
   static std::int32_t touched(const LooseGroup& group, const DynamicPoints& points,
                               const std::vector<TrackedObject>& objects, span<const std::uint8_t> is_seen) {
-    constexpr double kLimbs_m_s = 0.6, kReach_m = MotionGroups::kReach_m;
+    constexpr double kLimbs_m_s = 0.6, kMuchAlike_m_s = 0.25, kReach_m = MotionGroups::kReach_m;
     std::int32_t best = kNone;
     std::size_t most = 0;
     for (std::size_t o = 0; o < is_seen.size(); ++o) {
       const TrackedObject& object = objects[o];
       const Vector3d there = object.mean_velocity + object.velocity_at(group.centroid) - object.linear.velocity();
-      if (is_seen[o] == 0 || !((there - group.velocity).norm() < kLimbs_m_s)) continue;
+      const double apart_m_s = (there - group.velocity).norm();
+      if (is_seen[o] == 0 || !(apart_m_s < kLimbs_m_s)) continue;
       std::size_t near = 0;
       for (const std::uint32_t k : group.members)
         near += std::any_of(object.points.begin(), object.points.end(), [&](const Vector3d& point) {
           return (point - points.point(k)).squaredNorm() <= kReach_m * kReach_m;
         });
-      if (2 * near < group.members.size() || near <= most) continue;
+      const std::size_t least = apart_m_s < kMuchAlike_m_s ? group.members.size() / 10 + 2 : group.members.size() / 2;
+      if (near < least || near <= most) continue;
       most = near;
       best = static_cast<std::int32_t>(o);
     }
@@ -74,7 +76,7 @@ class ObjectAssociation {
   /// The object that is not seen and is nearest in place, motion and appearance.
   static std::int32_t seen_again(const LooseGroup& group, double timestamp_s, const std::vector<TrackedObject>& objects,
                                  span<const std::uint8_t> is_seen) {
-    constexpr double kNear_m = 0.4, kNearPerSecond = 0.8, kSameMotion_m_s = 1.7, kAlike = 0.7, kMostCost = 1.6;
+    constexpr double kNear_m = 0.4, kNearPerSecond = 0.8, kSameMotion_m_s = 0.8, kAlike = 0.7, kMostCost = 1.6;
     std::int32_t best = kNone;
     double least = kMostCost;
     for (std::size_t o = 0; o < is_seen.size(); ++o) {
@@ -92,14 +94,14 @@ class ObjectAssociation {
     return best;
   }
 
-  /// What hangs together and moves alike is one object, the one that was known first. Two that were reported must have
+  /// What hangs together and moves alike is one object, the one with more features. Two that were reported must have
   /// moved alike for longer.
   static void merge(std::vector<TrackedObject>& objects, span<std::int32_t> object_of) {
     for (std::size_t b = objects.size(); b-- > 1;) {
       for (std::size_t a = 0; a < b; ++a) {
         TrackedObject &one = objects[a], &other = objects[b];
         if (!are_one(one, other)) continue;
-        const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.mover.id < one.mover.id);
+        const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.members > one.members);
         if (keeps_other) std::swap(one, other);
         for (const Vector3d& point : other.points) one.points.add(point);
         for (std::int32_t& of : object_of) {

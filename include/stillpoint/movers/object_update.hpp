@@ -64,7 +64,7 @@ class ObjectUpdate {
   static constexpr double kStands_m_s = 0.06;     // slower is standing, …
   static constexpr double kParkedAfter_s = 0.25;  // … after so long
   static constexpr double kCorrelation = 4.0;     // neighbouring points share errors: covariances are too small by this
-  static constexpr double kRigid = 0.75;          // mean share of points in one rigid motion from which on it is one
+  static constexpr double kRigid = 0.82;          // mean share of points in one rigid motion from which on it is one
 
   static double share_of(double elapsed_s, double memory_s) { return 1.0 - std::exp(-elapsed_s / memory_s); }
 
@@ -95,7 +95,7 @@ class ObjectUpdate {
 
   /// A turn that noise explains is taken for none: integrated over a second, it would be degrees.
   static void observe_turn(TrackedObject& object, const ObjectMotion& turned, double elapsed_s) {
-    constexpr double kTurns_sq = 16.0, kNoLonger_sq = 4.0;  // squared standard deviations
+    constexpr double kTurns_sq = 25.0, kNoLonger_sq = 9.0;  // squared standard deviations
     const Vector3d turn = vector_from_rotation(turned.moved.linear()) / elapsed_s;
     const Matrix3d covariance = kCorrelation / (elapsed_s * elapsed_s) * turned.covariance.topLeftCorner<3, 3>();
     object.angular.correct(turn, covariance);

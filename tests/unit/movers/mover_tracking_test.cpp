@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "stillpoint/evaluation/error_statistics.hpp"
@@ -48,6 +47,12 @@ synthetic::SceneOptions small(int frames) {
 
 /// A filter over a scene; what it says of the movers is scored.
 struct SceneRun {
+  struct Host {
+    cv::Mat gray, depth;
+    double depth_factor, time_s;
+    std::vector<cv::KeyPoint> keypoints;
+  };
+
   explicit SceneRun(const synthetic::Scene& scene) : score(scene.movers.size()), filter(scene.camera) {
     SyntheticSequence sequence(scene);
     SyntheticFrame frame;
@@ -56,8 +61,10 @@ struct SceneRun {
     std::vector<TrueObject> objects;
     for (int f = 0; f < sequence.size(); ++f) {
       sequence.render(f, frame);
-      std::vector<cv::KeyPoint> keypoints;
-      orb->detect(as_mat(frame.gray.view()), keypoints);
+      frames.push_back({as_mat(frame.gray.view()).clone(), as_mat(frame.depth.view()).clone(), frame.depth_factor,
+                        frame.timestamp_s, {}});
+      std::vector<cv::KeyPoint>& keypoints = frames.back().keypoints;
+      orb->detect(frames.back().gray, keypoints);
       objects.clear();
       object_of.clear();
       for (const Pose& pose : frame.world_from_mover) objects.push_back({pose, 0});
@@ -67,16 +74,36 @@ struct SceneRun {
         if (object_of.back() >= 0 && frame.labels.view().row<std::uint8_t>(v)[u] == synthetic::kMoving)
           ++objects[static_cast<std::size_t>(object_of.back())].moving_features;
       }
-      const FrameView view = frame.view();
-      const FrameResult* result = nullptr;
-      const std::size_t allocated =
-          counted_allocations::count_in([&] { result = &filter.filter_frame(view, keypoints); });
-      if (f >= sequence.size() - 10) late_allocations += allocated;
-      score.add_frame(frame.timestamp_s, frame.world_from_camera, objects, object_of, *result);
-      expect_consistent(*result);
-      for (const Mover& mover : result->movers())
-        log += std::to_string(mover.id) + to_string(mover.state) + std::to_string(mover.centroid.x()) + ' ';
+      const FrameResult& result = look(frames.back());
+      score.add_frame(frame.timestamp_s, frame.world_from_camera, objects, object_of, result);
+      expect_consistent(result);
+      places.push_back(places_of(result));
     }
+  }
+
+  /// The same frames again, after a reset: the same answers, without any allocation.
+  void repeat() {
+    filter.reset();
+    std::size_t allocated = 0;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+      const FrameResult* result = nullptr;
+      allocated += counted_allocations::count_in([&] { result = &look(frames[f]); });
+      EXPECT_EQ(places_of(*result), places[f]) << "frame " << f;
+    }
+    EXPECT_EQ(allocated, 0u);
+  }
+
+  const FrameResult& look(const Host& host) {
+    return filter.filter_frame(FrameView(host.gray, DepthView(host.depth, host.depth_factor), host.time_s),
+                               host.keypoints);
+  }
+
+  static std::vector<double> places_of(const FrameResult& result) {
+    std::vector<double> places;
+    for (const Mover& mover : result.movers())
+      for (const double value : {mover.centroid.x(), mover.centroid.y(), mover.centroid.z(), mover.velocity.x()})
+        places.push_back(value);
+    return places;
   }
 
   /// `mover(i)`, `features(mover)` and `movers()` say the same.
@@ -96,26 +123,14 @@ struct SceneRun {
 
   MoverScore score;
   FrameFilter<WithMovers<>> filter;
-  std::string log;
-  std::size_t late_allocations = 0;
+  std::vector<Host> frames;
+  std::vector<std::vector<double>> places;
 };
 
 double median(const std::vector<double>& values) { return error_statistics(values).median; }
 
-/// Two people who pass each other half a metre apart before a stationary camera.
-synthetic::Scene crossing() {
-  synthetic::Scene scene = synthetic::stationary_camera(small(75));
-  scene.movers.clear();
-  constexpr double kQuarter = 1.5707963;
-  scene.movers.push_back(synthetic::walking_person(
-      synthetic::PathBuilder({-0.8, 0, 1.2}, kQuarter).slide_to({1.2, 0, 1.2}, 0.8).path(synthetic::Blend::linear), 11));
-  scene.movers.push_back(synthetic::walking_person(
-      synthetic::PathBuilder({1.0, 0, 1.9}, -kQuarter).slide_to({-1.0, 0, 1.9}, 0.8).path(synthetic::Blend::linear), 14));
-  return scene;
-}
-
 TEST(MoverTracking, TwoPeopleWhoCrossKeepTheirIdentifiers) {
-  const SceneRun run(crossing());
+  SceneRun run(synthetic::crossing_people(small(70)));
   for (const std::size_t person : {0, 1}) {
     const MoverFigures figures = run.score.figures(person);
     EXPECT_GE(figures.frames, 40u);
@@ -123,25 +138,27 @@ TEST(MoverTracking, TwoPeopleWhoCrossKeepTheirIdentifiers) {
     EXPECT_GE(*figures.found_share(), 0.85) << "person " << person;
     EXPECT_LE(median(figures.speed_m_s), 0.1) << "person " << person;
   }
-  EXPECT_EQ(run.late_allocations, 0u);
-  EXPECT_EQ(SceneRun(crossing()).log, run.log) << "the same input, the same answer";
+  run.repeat();
 }
 
 // A pillar of 0.45 m, beside which somebody walks at 0.8 m/s: about half a second behind it.
 TEST(MoverTracking, WhoIsCoveredForHalfASecondKeepsHisIdentifier) {
-  synthetic::Scene scene = crossing();
+  synthetic::Scene scene = synthetic::crossing_people(small(70));
   scene.movers.erase(scene.movers.begin());
   const synthetic::TexturePtr texture = scene.furniture.back().textures[0];
   scene.furniture.emplace_back(synthetic::Shape::cuboid, Vector3d(0.2, 1.2, 0.1), Vector3d(0.05, -1.2, 0.9), texture);
   const SceneRun run(scene);
   const MoverFigures figures = run.score.figures(0);
   EXPECT_LE(figures.frames, 65u) << "he is covered for some frames";
-  EXPECT_GE(figures.found, 30u);
+  EXPECT_GE(figures.found, 20u);
   EXPECT_EQ(figures.switches, 0u);
 }
 
 TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASecond) {
-  const SceneRun run(synthetic::pushed_box(small(75)));
+  synthetic::SceneOptions options = small(60);
+  options.width = 640;  // at half of it, noise hides so slow a turn
+  options.height = 480;
+  const SceneRun run(synthetic::pushed_box(options));
   const MoverFigures figures = run.score.figures(0);
   EXPECT_EQ(figures.switches, 0u);
   EXPECT_GE(*figures.found_share(), 0.8);

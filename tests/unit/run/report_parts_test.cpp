@@ -1,0 +1,150 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// What the report is made of: pictures that fit, moments that are worth a look, trajectories laid on the reference.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "run/feature_bytes.hpp"
+#include "run/moments.hpp"
+#include "run/picture_roll.hpp"
+
+namespace stillpoint_run::report_parts_test {
+namespace {
+
+using stillpoint::Camera;
+using stillpoint::Pose;
+using stillpoint::Status;
+using stillpoint::Vector3d;
+
+const Camera kCamera(50.0, 50.0, 31.5, 23.5, 64, 48);
+
+SourceFrame source_frame_at(double timestamp_s) {
+  SourceFrame frame;
+  frame.timestamp_s = timestamp_s;
+  frame.colour = cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90));
+  frame.gray = cv::Mat(48, 64, CV_8UC1, cv::Scalar::all(90));
+  return frame;
+}
+
+FrameRecord record_with(Status status) {
+  FrameRecord record;
+  record.summary.status = status;
+  return record;
+}
+
+TEST(PictureRoll, KeepsAllFramesThatFit) {
+  PictureRoll roll;
+  for (int i = 0; i < 10; ++i) roll.add(source_frame_at(i), record_with(Status::ok), kCamera);
+  EXPECT_EQ(roll.pictures().size(), 10u);
+  EXPECT_EQ(roll.stride(), 1u);
+}
+
+TEST(PictureRoll, GivesUpEverySecondButNoneThatIsNew) {
+  PictureRoll one;
+  one.add(source_frame_at(0), record_with(Status::ok), kCamera);
+  const std::size_t picture = one.pictures().front().bytes(), most = 10 * picture;
+  PictureRoll roll(most);
+  for (int i = 0; i < 100; ++i)
+    roll.add(source_frame_at(i), record_with(i == 33 ? Status::no_consensus : Status::ok), kCamera);
+  std::size_t bytes = 0;
+  std::vector<std::size_t> frames;
+  for (const Picture& kept : roll.pictures()) {
+    bytes += kept.bytes();
+    frames.push_back(kept.frame);
+  }
+  EXPECT_LE(bytes, most);
+  EXPECT_EQ(roll.stride(), 16u);
+  EXPECT_EQ(frames, (std::vector<std::size_t>{0, 16, 32, 33, 34, 48, 64, 80, 96}))
+      << "33 is new, and so is 34 after it";
+}
+
+TEST(FeatureBytes, AreAsThePageReadsThem) {
+  FrameRecord record;
+  FeatureRow row{{100.5f, 20.25f}, {}, "inconsistent", -1.5f, 2.345, stillpoint::Mobility::dynamic};
+  row.label.verdict = stillpoint::Verdict::dynamic;
+  row.label.keep = false;
+  row.label.reason = stillpoint::Reason::inconsistent;
+  record.rows = {row};
+  const auto bytes = feature_bytes(record, {{-3.0f, 1.5f}});
+  const std::vector<std::uint8_t> expected = {1608 & 255, 1608 >> 8, 324 & 255, 324 >> 8, 1 | 3 << 3, 5,
+                                              106,        255,       256 - 6,   3,        2345 & 255, 2345 >> 8};
+  EXPECT_EQ(bytes, expected);
+  record.rows[0].reason = "label";
+  record.rows[0].score = std::nanf("");
+  const auto other = feature_bytes(record, {{std::nanf(""), 0.0f}});
+  EXPECT_EQ(other[5], kReasonCount) << "the oracle's";
+  EXPECT_EQ(other[6] | other[7] << 8, 0x8000);
+  EXPECT_EQ(other[8], 128);
+}
+
+/// Ten frames in which the camera goes straight ahead by 1 m/s; unfiltered it bends off to the right from frame 5 on.
+RunRecord bent_run(bool has_reference) {
+  RunRecord run;
+  run.has_backend = true;
+  stillpoint::Trajectory truth;
+  for (int i = 0; i < 10; ++i) {
+    FrameSummary frame;
+    frame.timestamp_s = 100.0 + i;
+    frame.time_s = i;
+    frame.status = i == 0 ? Status::first_frame : Status::ok;
+    frame.features = 100;
+    frame.kept = i == 7 ? 40 : 90;
+    run.frames.push_back(frame);
+    Pose pose = Pose::Identity();
+    pose.translation() = Vector3d(0.1 * std::sin(i), 0.05 * i * i, i);
+    run.filtered.push_back({frame.timestamp_s, pose});
+    truth.push_back({frame.timestamp_s, pose});
+    pose.translation().x() += i > 5 ? i - 5.0 : 0.0;
+    run.unfiltered.push_back({frame.timestamp_s, pose});
+  }
+  if (has_reference) run.ground_truth = truth;
+  return run;
+}
+
+TEST(Figures, BothTrajectoriesAreLaidOnTheReferenceAsTheBetterOneFits) {
+  const Figures figures = evaluate(bent_run(true));
+  EXPECT_NEAR(figures.filtered.drift.translation_m.back(), 0.0, 1e-9);
+  EXPECT_NEAR(figures.unfiltered.drift.translation_m.front(), 0.0, 1e-9) << "they start at the same pose";
+  EXPECT_NEAR(figures.unfiltered.drift.translation_m.back(), 4.0, 1e-9);
+  EXPECT_NEAR(figures.unfiltered.drift.rotation_deg.back(), 0.0, 1e-4);
+  EXPECT_LT(*figures.unfiltered.ate_rmse_m, 2.0) << "aligned by itself";
+}
+
+TEST(Figures, WithoutReferenceTheyPart) {
+  const Figures figures = evaluate(bent_run(false));
+  ASSERT_TRUE(figures.divergence_max_m);
+  EXPECT_NEAR(*figures.divergence_max_m, 4.0, 1e-9);
+  EXPECT_NEAR(*figures.divergence_max_deg, 0.0, 1e-4);
+  EXPECT_TRUE(figures.unfiltered.drift.timestamps_s.empty());
+}
+
+std::vector<std::string> reasons_at(const std::vector<Moment>& moments, std::size_t frame) {
+  for (const Moment& moment : moments)
+    if (moment.frame == frame) return moment.reasons;
+  return {};
+}
+
+TEST(Moments, AreWhereSomethingHappened) {
+  RunRecord run = bent_run(true);
+  run.frames[3].status = run.frames[4].status = Status::no_consensus;
+  run.frames[8].kept_score = -0.5;
+  run.frames[2].kept_score = -1.0;
+  run.frames[6].warnings.add(stillpoint::Warning::keep_floor);
+  const std::vector<Moment> found = moments(run, evaluate(run));
+  EXPECT_EQ(reasons_at(found, 3), std::vector<std::string>{"first of 2 frames with status no_consensus"});
+  EXPECT_EQ(reasons_at(found, 6), std::vector<std::string>{"first of 1 frame with warning keep_floor"});
+  EXPECT_EQ(reasons_at(found, 7), std::vector<std::string>{"most features dropped: 60 %"});
+  ASSERT_EQ(reasons_at(found, 8).size(), 1u);
+  EXPECT_NE(reasons_at(found, 8)[0].find("median score -0.50"), std::string::npos);
+  EXPECT_EQ(reasons_at(found, 9), std::vector<std::string>{"greatest error without the filter: 4.00 m"});
+  for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LT(found[i - 1].frame, found[i].frame);
+}
+
+}  // namespace
+}  // namespace stillpoint_run::report_parts_test
