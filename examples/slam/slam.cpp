@@ -25,7 +25,7 @@ Slam::Slam(Camera camera, const SlamOptions& settings)
 
 OrbFeatures Slam::extract(const stillpoint::FrameView& frame) {
   OrbFeatures features = orb_.extract(frame);
-  if (options.uses_multi_view) extracted_ = {features.keypoints, features.descriptors.clone(), {}};
+  if (finds_dynamic()) extracted_ = {features.keypoints, features.descriptors.clone(), {}};
   is_dynamic_.assign(features.keypoints.size(), 0);
   return features;
 }
@@ -55,7 +55,7 @@ std::optional<Pose> Slam::track(const stillpoint::FrameView& view, const OrbFeat
   if (is_new_beginning && count_depths(frame) < options.fewest_to_begin) return std::nullopt;
   KeyframeId keyframe = kNone;
   if (is_new_beginning || wants_keyframe(frame)) keyframe = keeper_->mapping.insert(frame, map);
-  if (options.uses_multi_view && !is_new_beginning && !extracted_.keypoints.empty()) {
+  if (finds_dynamic() && !is_new_beginning) {
     Frame all = prepare(view, extracted_);
     all.camera_from_world = frame.camera_from_world;
     is_dynamic_ = find_dynamic(all, map, tracking.local_points(), options.noise);

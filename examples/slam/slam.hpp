@@ -48,10 +48,12 @@ struct SlamOptions {
   std::size_t fewest_to_begin = 100;  ///< features with depth: fewer make no first keyframe
   int patience = 15;                  ///< frames without a pose; then the map goes on where the camera is expected
   bool maps_in_step = false;          ///< mapping is waited for: the same bytes each time
+  /// Offers what its map calls dynamic to the filter, which finds slower movers by it. It has more false positives,
+  /// too: docs/slam.md. Needs multi-view geometry.
+  bool finds_dynamic = false;
   // The rows of the ablation.
-  bool uses_multi_view =
-      true;                 ///< adjusts windows and removes what deviates; tells the filter what its map calls dynamic
-  bool uses_bundle = true;  ///< adjusts them
+  bool uses_multi_view = true;  ///< adjusts windows and removes what deviates
+  bool uses_bundle = true;      ///< adjusts them
   bool uses_loops = true;
   bool uses_things = true;  ///< as a cue of loops
 };
@@ -73,8 +75,7 @@ class Slam {
   /// @return world_from_camera, as it is known at the time
   std::optional<Pose> track(const stillpoint::FrameView& view, const OrbFeatures& features);
 
-  /// One byte per feature of the last `extract`, 1: moves, by the map. Nothing moves without multi-view geometry, whose
-  /// structure it deviates from.
+  /// One byte per feature of the last `extract`, 1: moves, by the map; all 0 unless `finds_dynamic`.
   stillpoint::span<const std::uint8_t> dynamic_features() const { return is_dynamic_; }
 
   /// Each frame with a pose, as its keyframe stands when all mapping is done.
@@ -89,6 +90,7 @@ class Slam {
   Frame prepare(const stillpoint::FrameView& view, const OrbFeatures& features);
   bool locate(Frame& frame);
   bool wants_keyframe(const Frame& frame) const;
+  bool finds_dynamic() const { return options.finds_dynamic && options.uses_multi_view; }
 
   Camera camera_;
   SpreadOrb orb_;
