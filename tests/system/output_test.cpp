@@ -26,14 +26,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-const std::vector<std::string> kFiles = {"features.csv",
-                                         "frames.csv",
-                                         "movers.csv",
-                                         "options.yaml",
-                                         "report.html",
-                                         "report.json",
-                                         "trajectory.txt",
-                                         "trajectory_unfiltered.txt"};
+const std::vector<std::string> kFiles = {"features.csv", "frames.csv",  "movers.csv",     "options.yaml",
+                                         "report.html",  "report.json", "trajectory.txt", "trajectory_unfiltered.txt"};
 constexpr int kFrames = 8;
 
 void expect_features_file(const fs::path& file, std::size_t frame_count) {
@@ -246,10 +240,10 @@ TEST_F(Demo, WritesWhereMoversAreUnlessToldNotTo) {
     EXPECT_EQ(rows[i][10], "unknown") << "no detector";
   }
   const TemporaryFolder other;
-  ASSERT_EQ(run_program("--demo --quiet --no-movers --frames " + std::to_string(kFrames) + " --out " +
-                        quoted(other / "out"))
-                .status,
-            0);
+  ASSERT_EQ(
+      run_program("--demo --quiet --no-movers --frames " + std::to_string(kFrames) + " --out " + quoted(other / "out"))
+          .status,
+      0);
   EXPECT_FALSE(fs::exists(other / "out" / "movers.csv"));
   EXPECT_EQ(read_text(other / "out" / "features.csv"), read_text(out() / "features.csv")) << "verdicts are the same";
 }

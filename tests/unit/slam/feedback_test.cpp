@@ -67,7 +67,8 @@ slam::Frame frame_with_moved(const std::vector<Vector3d>& points, std::size_t mo
 /// Points in one corner of the image, 3 m away, and others all over it.
 std::vector<Vector3d> box_and_room(int box = 9) {
   std::vector<Vector3d> points;
-  for (int i = 0; i < box; ++i) points.push_back(camera().back_project({100 + 15.0 * (i % 3), 100 + 15.0 * (i / 3)}, 3));
+  for (int i = 0; i < box; ++i)
+    points.push_back(camera().back_project({100 + 15.0 * (i % 3), 100 + 15.0 * (i / 3)}, 3));
   for (const Vector3d& point : made_points(40)) points.push_back(point);
   return points;
 }
