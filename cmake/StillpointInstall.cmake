@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# find_package(stillpoint 0.1 [COMPONENTS core|stillpoint|options|io|dnn|compiled|onnxruntime|shim]): one export set a component, so that a
+# find_package(stillpoint 0.2 [COMPONENTS core|stillpoint|options|io|dnn|compiled|onnxruntime|shim]): one export set a component, so that a
 # host that asks for `core` never looks for OpenCV.
 
 include(CMakePackageConfigHelpers)

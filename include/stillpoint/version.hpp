@@ -5,6 +5,6 @@
 // The one place the version is written; CMake reads it from here.
 
 #define STILLPOINT_VERSION_MAJOR 0
-#define STILLPOINT_VERSION_MINOR 1
+#define STILLPOINT_VERSION_MINOR 2
 #define STILLPOINT_VERSION_PATCH 0
-#define STILLPOINT_VERSION "0.1.0"
+#define STILLPOINT_VERSION "0.2.0"
