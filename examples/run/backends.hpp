@@ -187,7 +187,7 @@ inline AnyTracker make_slam(const Options& options, const stillpoint::Camera& ca
   slam.uses_multi_view = !options.slam_without("multi-view");
   slam.uses_bundle = !options.slam_without("bundle");
   slam.uses_loops = !options.slam_without("loops");
-  slam.uses_things = !options.slam_without("semantics");
+  slam.uses_objects = !options.slam_without("semantics");
   return AnyTracker(examples::slam::Slam(camera, slam));
 }
 #endif

@@ -26,8 +26,8 @@ using KeyframeId = int;
 using PointId = int;
 constexpr int kNone = -1;
 
-/// A thing that a detector has seen: part of what a place looks like.
-struct SeenThing {
+/// An object that a detector has seen: part of what a place looks like.
+struct SeenObject {
   int class_index = 0;
   double u = 0.0, v = 0.0;  ///< centre, as shares of the image's width and height
 };
@@ -40,7 +40,7 @@ struct Frame {
   std::vector<PointId> point;          ///< of the map, kNone where none was found
   std::vector<cv::Vec3b> colour;       ///< BGR
   std::vector<std::uint8_t> deviates;  ///< 1: it shows a point where the map says that it can't be
-  std::vector<SeenThing> things;
+  std::vector<SeenObject> objects;
   FeatureGrid grid;
   Pose camera_from_world = Pose::Identity();
 

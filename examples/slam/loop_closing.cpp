@@ -29,16 +29,17 @@ std::vector<KeyframeId> with_neighbours(KeyframeId id, std::size_t most, const M
 
 }  // namespace
 
-/// The likest first.
-std::vector<LoopClosing::Candidate> LoopClosing::by_likeness(const Frame& frame, const Map& map) const {
+/// The most similar first.
+std::vector<LoopClosing::Candidate> LoopClosing::by_similarity(const Frame& frame, const Map& map) const {
   std::vector<Candidate> result;
-  for (const auto& [id, share] : index.likeness(frame)) {
+  for (const auto& [id, share] : index.similarity(frame)) {
     if (!map.has(id)) continue;
-    const double of_things = options.compares_things ? likeness_of_things(frame.things, map.keyframe(id).things) : 1.0;
-    result.push_back({id, share * of_things});
+    const double of_objects =
+        options.compares_objects ? semantic_similarity(frame.objects, map.keyframe(id).objects) : 1.0;
+    result.push_back({id, share * of_objects});
   }
   std::stable_sort(result.begin(), result.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.likeness > b.likeness; });
+                   [](const Candidate& a, const Candidate& b) { return a.similarity > b.similarity; });
   return result;
 }
 
@@ -49,25 +50,25 @@ std::optional<Recognised> LoopClosing::recognise(KeyframeId newest, const Map& m
   for (const auto& entry : map.covisible(newest, 1)) covisible.insert(entry);
   double of_neighbours = 0.0;
   std::vector<Candidate> candidates;
-  for (const Candidate& candidate : by_likeness(keyframe, map)) {
+  for (const Candidate& candidate : by_similarity(keyframe, map)) {
     const auto shared = covisible.find(candidate.id);
     if (shared != covisible.end() && shared->second >= kFewestShared)
-      of_neighbours = std::max(of_neighbours, candidate.likeness);
+      of_neighbours = std::max(of_neighbours, candidate.similarity);
     else if (newest - candidate.id >= options.fewest_between)
       candidates.push_back(candidate);
   }
-  const double least = std::max(options.least_likeness, options.likeness_of_neighbours * of_neighbours);
+  const double least = std::max(options.least_similarity, options.share_of_neighbours * of_neighbours);
   std::optional<Recognised> best;
-  double best_likeness = 0.0;
+  double best_similarity = 0.0;
   std::size_t looked_at = 0;
   for (const Candidate& candidate : candidates) {
-    if (candidate.likeness < least || looked_at++ == options.candidates) break;
-    if (best && candidate.likeness < options.ambiguous * best_likeness) break;
+    if (candidate.similarity < least || looked_at++ == options.candidates) break;
+    if (best && candidate.similarity < options.ambiguous * best_similarity) break;
     std::optional<Recognised> recognised = verify(keyframe, candidate.id, map);
     if (!recognised) continue;
     if (!best) {
       best = std::move(recognised);
-      best_likeness = candidate.likeness;
+      best_similarity = candidate.similarity;
       continue;
     }
     // The same place seen from elsewhere gives the same pose. Two places that both fit: nobody knows which.
@@ -83,11 +84,11 @@ std::optional<Recognised> LoopClosing::recognise(KeyframeId newest, const Map& m
 /// must agree, which nobody has compared with the place yet.
 std::optional<Recognised> LoopClosing::verify(const Keyframe& keyframe, KeyframeId place, const Map& map) {
   constexpr std::size_t kNeighbours = 6;
-  const std::optional<Pose> by_likeness_alone = place_pose(keyframe, place, map);
-  if (!by_likeness_alone) return std::nullopt;
+  const std::optional<Pose> by_appearance = place_pose(keyframe, place, map);
+  if (!by_appearance) return std::nullopt;
   const std::vector<PointId> points = map.points_of(with_neighbours(place, kNeighbours, map));
   Recognised result;
-  if (!agrees(keyframe, *by_likeness_alone, points, map, 1.0, result.matches, result.camera_from_world))
+  if (!agrees(keyframe, *by_appearance, points, map, 1.0, result.matches, result.camera_from_world))
     return std::nullopt;
   const auto before = map.covisible(keyframe.id, kFewestShared);
   if (before.empty()) return std::nullopt;
@@ -133,8 +134,8 @@ bool LoopClosing::agrees(const Keyframe& keyframe, const Pose& camera_from_world
 
 std::optional<Recognised> LoopClosing::relocalise(const Frame& frame, const Map& map) {
   std::size_t looked_at = 0;
-  for (const Candidate& candidate : by_likeness(frame, map)) {
-    if (candidate.likeness < options.least_likeness || looked_at++ == options.candidates) break;
+  for (const Candidate& candidate : by_similarity(frame, map)) {
+    if (candidate.similarity < options.least_similarity || looked_at++ == options.candidates) break;
     if (const std::optional<Pose> pose = place_pose(frame, candidate.id, map))
       return Recognised{{kNone, candidate.id}, *pose, {}};
   }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Has the camera come back? A keyframe that looks like one of long ago, shows the same things, and fits it in space
+// Has the camera come back? A keyframe that looks like one of long ago, shows the same objects, and fits it in space
 // closes a loop: the error that has grown since is spread over all keyframes.
 
 #include <cstddef>
@@ -34,15 +34,16 @@ struct Recognised {
 class LoopClosing {
  public:
   struct Options {
-    bool closes = true;           ///< false: nothing is ever recognised as a loop
-    bool compares_things = true;  ///< a candidate's likeness is multiplied by that of the things a detector saw
-    int fewest_between = 10;      ///< keyframes: those nearer are no loop
-    double least_likeness = 0.05;
-    double likeness_of_neighbours = 0.4;  ///< a candidate is at least this share as like as the likest covisible one
-    std::size_t candidates = 3;           ///< that are looked at
-    std::size_t fewest_points = 50;       ///< of the place that the keyframe must show
+    bool closes = true;            ///< false: nothing is ever recognised as a loop
+    bool compares_objects = true;  ///< a candidate's similarity is multiplied by that of the objects a detector saw
+    int fewest_between = 10;       ///< keyframes: those nearer are no loop
+    double least_similarity = 0.05;
+    double share_of_neighbours =
+        0.4;                     ///< a candidate is at least this share as similar as the most similar covisible one
+    std::size_t candidates = 3;  ///< that are looked at
+    std::size_t fewest_points = 50;  ///< of the place that the keyframe must show
     double fewest_share = 0.2;  ///< of the place's points in the picture must be found; seen from aside, half are not
-    double ambiguous = 0.9;     ///< another place of this share of the likeness must not fit as well
+    double ambiguous = 0.9;     ///< another place of this share of the similarity must not fit as well
     PointSearch search;
     Options() {
       search.window_px = 8.0;
@@ -58,7 +59,7 @@ class LoopClosing {
 
   /// The place of long ago that the newest keyframe shows, if there is one, and no other that might be it.
   std::optional<Recognised> recognise(KeyframeId newest, const Map& map);
-  /// Where a lost camera is: the likest place that it fits.
+  /// Where a lost camera is: the most similar place that it fits.
   std::optional<Recognised> relocalise(const Frame& frame, const Map& map);
   /// Makes the map agree with what was recognised: pose graph, points, and those that are the same made one.
   void close(const Recognised& recognised, Map& map) const;
@@ -66,9 +67,9 @@ class LoopClosing {
  private:
   struct Candidate {
     KeyframeId id;
-    double likeness;
+    double similarity;
   };
-  std::vector<Candidate> by_likeness(const Frame& frame, const Map& map) const;
+  std::vector<Candidate> by_similarity(const Frame& frame, const Map& map) const;
   std::optional<Recognised> verify(const Keyframe& keyframe, KeyframeId place, const Map& map);
   bool agrees(const Keyframe& keyframe, const Pose& camera_from_world, span<const PointId> points, const Map& map,
               double share_of_fewest, std::vector<PointMatch>& matches, Pose& refined) const;

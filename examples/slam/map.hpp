@@ -79,7 +79,7 @@ class Map {
   /// A point that nobody sees any more is removed.
   void remove_observation(PointId point, KeyframeId keyframe);
   void remove(PointId point);
-  /// `gone` is the same thing as `kept`, which gets its observations.
+  /// `gone` is the same point as `kept`, which gets its observations.
   void merge(PointId gone, PointId kept);
   void remove_keyframe(KeyframeId id);
 

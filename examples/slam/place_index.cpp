@@ -27,7 +27,7 @@ void PlaceIndex::remove(KeyframeId id) {
         node.entries.end());
 }
 
-std::map<KeyframeId, double> PlaceIndex::likeness(const Frame& frame) const {
+std::map<KeyframeId, double> PlaceIndex::similarity(const Frame& frame) const {
   std::map<KeyframeId, int> found;
   std::vector<KeyframeId> here;
   for (std::size_t i = 0; i < frame.size(); ++i) {

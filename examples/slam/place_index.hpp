@@ -28,7 +28,7 @@ class PlaceIndex {
   void remove(KeyframeId id);
 
   /// How many features of a frame have one like it in each keyframe, as a share of the lesser number of features.
-  std::map<KeyframeId, double> likeness(const Frame& frame) const;
+  std::map<KeyframeId, double> similarity(const Frame& frame) const;
 
   std::size_t size() const;  ///< entries
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Do two places show the same things? Rooms have many desks; what stands on them tells one from the other.
+// Do two places show the same objects? Rooms have many desks; what stands on them tells one from the other.
 
 #include <algorithm>
 #include <map>
@@ -13,17 +13,17 @@
 
 namespace examples::slam {
 
-/// How alike two lists of things are: the intersection of histograms over class and third of the picture's width, in
-/// which a thing in the neighbouring third counts half. People and cars are no part of a place: leave them out.
+/// How alike two lists of objects are: the intersection of histograms over class and third of the picture's width, in
+/// which an object in the neighbouring third counts half. People and cars are no part of a place: leave them out.
 /// @return `least` for nothing in common to 1 for the same; 1 where one of them shows nothing at all
-inline double likeness_of_things(stillpoint::span<const SeenThing> a, stillpoint::span<const SeenThing> b,
-                                 double least = 0.2) {
+inline double semantic_similarity(stillpoint::span<const SeenObject> a, stillpoint::span<const SeenObject> b,
+                                  double least = 0.2) {
   if (a.empty() || b.empty()) return 1.0;
-  const auto histogram = [](stillpoint::span<const SeenThing> things) {
+  const auto histogram = [](stillpoint::span<const SeenObject> objects) {
     constexpr int kThirds = 3;
     std::map<std::pair<int, int>, double> bins;
-    for (const SeenThing& thing : things)
-      bins[{thing.class_index, std::clamp(static_cast<int>(thing.u * kThirds), 0, kThirds - 1)}] += 1.0;
+    for (const SeenObject& object : objects)
+      bins[{object.class_index, std::clamp(static_cast<int>(object.u * kThirds), 0, kThirds - 1)}] += 1.0;
     return bins;
   };
   auto of_a = histogram(a), of_b = histogram(b);

@@ -20,7 +20,7 @@ Slam::Slam(Camera camera, const SlamOptions& settings)
   keeper_->compares_views = settings.uses_multi_view;
   keeper_->multi_view.options.adjusts = settings.uses_bundle;
   keeper_->loop_closing.options.closes = settings.uses_loops;
-  keeper_->loop_closing.options.compares_things = settings.uses_things;
+  keeper_->loop_closing.options.compares_objects = settings.uses_objects;
 }
 
 OrbFeatures Slam::extract(const stillpoint::FrameView& frame) {
@@ -31,12 +31,12 @@ OrbFeatures Slam::extract(const stillpoint::FrameView& frame) {
 }
 
 void Slam::expect_detections(stillpoint::span<const stillpoint::Detection> detections) {
-  things_.clear();
+  objects_.clear();
   for (const stillpoint::Detection& seen : detections) {
     if (seen.mobility != stillpoint::Mobility::fixed && seen.mobility != stillpoint::Mobility::movable) continue;
     const auto u = static_cast<double>(seen.box.x + seen.box.width / 2);
     const auto v = static_cast<double>(seen.box.y + seen.box.height / 2);
-    things_.push_back({seen.class_index, u / camera_.width(), v / camera_.height()});
+    objects_.push_back({seen.class_index, u / camera_.width(), v / camera_.height()});
   }
 }
 
@@ -99,7 +99,7 @@ Frame Slam::prepare(const stillpoint::FrameView& view, const OrbFeatures& featur
   Frame frame;
   frame.timestamp_s = view.timestamp_s;
   frame.features = {features.keypoints, features.descriptors.clone(), features.weights};
-  frame.things = std::exchange(things_, {});
+  frame.objects = std::exchange(objects_, {});
   frame.point.assign(features.keypoints.size(), kNone);
   for (const cv::KeyPoint& keypoint : features.keypoints) {
     frame.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));

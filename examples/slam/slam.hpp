@@ -11,7 +11,7 @@
 // | keyframe   | a frame that the map explains badly joins it, with new points  | mapping.hpp        |
 // | map        | points that are the same are made one; points by two views     | mapping.hpp        |
 // | multi-view | a window is adjusted, what deviates is removed, until none does | multi_view.hpp     |
-// | loop       | a place seen long ago, known by its features and things        | loop_closing.hpp   |
+// | loop       | a place seen long ago, known by its features and objects       | loop_closing.hpp   |
 //
 // | feedback   | features that the map calls dynamic go back to the filter       | dynamic_features.hpp |
 //
@@ -55,7 +55,7 @@ struct SlamOptions {
   bool uses_multi_view = true;  ///< adjusts windows and removes what deviates
   bool uses_bundle = true;      ///< adjusts them
   bool uses_loops = true;
-  bool uses_things = true;  ///< as a cue of loops
+  bool uses_objects = true;  ///< as a cue of loops
 };
 
 /// A backend of `FilteredTracker`. The world is the camera of the first frame that is tracked.
@@ -95,7 +95,7 @@ class Slam {
   Camera camera_;
   SpreadOrb orb_;
   std::unique_ptr<MapKeeper> keeper_;  ///< stays where it is when this is moved
-  std::vector<SeenThing> things_;
+  std::vector<SeenObject> objects_;
   OrbFeatures extracted_;  ///< of the coming frame, before the filter drops any
   std::vector<std::uint8_t> is_dynamic_;
 };

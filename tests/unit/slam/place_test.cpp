@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// Whether a place is known again: by its features, by its things, and in space.
+// Whether a place is known again: by its features, by its objects, and in space.
 
 #include <gtest/gtest.h>
 
@@ -32,9 +32,9 @@ TEST(PlaceIndex, KnowsAPlaceAmongMany) {
   for (slam::KeyframeId id = 0; id < 30; ++id) index.add(made_place(id));
   EXPECT_EQ(index.size(), 3000u);
   for (const slam::KeyframeId id : {0, 13, 29}) {
-    const auto likeness = index.likeness(made_place(id));
-    EXPECT_DOUBLE_EQ(likeness.at(id), 1.0);
-    for (const auto& [other, share] : likeness)
+    const auto similarity = index.similarity(made_place(id));
+    EXPECT_DOUBLE_EQ(similarity.at(id), 1.0);
+    for (const auto& [other, share] : similarity)
       if (other != id) {
         EXPECT_LT(share, 0.1) << other;
       }
@@ -52,7 +52,7 @@ TEST(PlaceIndex, KnowsAPlaceWhoseDescriptorsHaveChanged) {
       const auto bit = static_cast<int>(random.index(256));
       again.features.descriptors.at<std::uint8_t>(row, bit / 8) ^= static_cast<std::uint8_t>(1 << (bit % 8));
     }
-  EXPECT_GT(index.likeness(again).at(13), 0.5);
+  EXPECT_GT(index.similarity(again).at(13), 0.5);
 }
 
 TEST(PlaceIndex, FeaturesWithoutAPointNeverEnter) {
@@ -61,7 +61,7 @@ TEST(PlaceIndex, FeaturesWithoutAPointNeverEnter) {
   slam::PlaceIndex index;
   index.add(walker);
   EXPECT_EQ(index.size(), 0u);
-  EXPECT_TRUE(index.likeness(walker).empty());
+  EXPECT_TRUE(index.similarity(walker).empty());
 }
 
 TEST(PlaceIndex, ForgetsAKeyframe) {
@@ -70,8 +70,8 @@ TEST(PlaceIndex, ForgetsAKeyframe) {
   index.remove(1);
   index.remove(1);
   EXPECT_EQ(index.size(), 200u);
-  EXPECT_EQ(index.likeness(made_place(1)).count(1), 0u);
-  EXPECT_DOUBLE_EQ(index.likeness(made_place(2)).at(2), 1.0);
+  EXPECT_EQ(index.similarity(made_place(1)).count(1), 0u);
+  EXPECT_DOUBLE_EQ(index.similarity(made_place(2)).at(2), 1.0);
 }
 
 // All alike: no bit parts them.
@@ -81,19 +81,19 @@ TEST(PlaceIndex, EqualDescriptorsStayInOneLeaf) {
   slam::PlaceIndex index;
   index.add(blank);
   EXPECT_EQ(index.size(), 100u);
-  EXPECT_DOUBLE_EQ(index.likeness(blank).at(0), 1.0);
+  EXPECT_DOUBLE_EQ(index.similarity(blank).at(0), 1.0);
 }
 
 TEST(SemanticCue, TellsTwoDesksApart) {
-  const std::vector<slam::SeenThing> screen_and_cup = {{62, 0.2, 0.5}, {41, 0.8, 0.6}};
-  const std::vector<slam::SeenThing> screen_and_plant = {{62, 0.2, 0.5}, {58, 0.8, 0.6}};
-  const std::vector<slam::SeenThing> mirrored = {{62, 0.8, 0.5}, {41, 0.2, 0.6}};
-  EXPECT_DOUBLE_EQ(slam::likeness_of_things(screen_and_cup, screen_and_cup), 1.0);
-  EXPECT_DOUBLE_EQ(slam::likeness_of_things(screen_and_cup, screen_and_plant), 0.2 + 0.8 * 0.5);
-  EXPECT_DOUBLE_EQ(slam::likeness_of_things(screen_and_cup, mirrored), 0.2);
-  const std::vector<slam::SeenThing> nearby = {{62, 0.5, 0.5}, {41, 0.5, 0.5}};
-  EXPECT_DOUBLE_EQ(slam::likeness_of_things(screen_and_cup, nearby), 0.2 + 0.8 * 0.5);
-  EXPECT_DOUBLE_EQ(slam::likeness_of_things(screen_and_cup, {}), 1.0) << "nothing was seen: nothing is known";
+  const std::vector<slam::SeenObject> screen_and_cup = {{62, 0.2, 0.5}, {41, 0.8, 0.6}};
+  const std::vector<slam::SeenObject> screen_and_plant = {{62, 0.2, 0.5}, {58, 0.8, 0.6}};
+  const std::vector<slam::SeenObject> mirrored = {{62, 0.8, 0.5}, {41, 0.2, 0.6}};
+  EXPECT_DOUBLE_EQ(slam::semantic_similarity(screen_and_cup, screen_and_cup), 1.0);
+  EXPECT_DOUBLE_EQ(slam::semantic_similarity(screen_and_cup, screen_and_plant), 0.2 + 0.8 * 0.5);
+  EXPECT_DOUBLE_EQ(slam::semantic_similarity(screen_and_cup, mirrored), 0.2);
+  const std::vector<slam::SeenObject> nearby = {{62, 0.5, 0.5}, {41, 0.5, 0.5}};
+  EXPECT_DOUBLE_EQ(slam::semantic_similarity(screen_and_cup, nearby), 0.2 + 0.8 * 0.5);
+  EXPECT_DOUBLE_EQ(slam::semantic_similarity(screen_and_cup, {}), 1.0) << "nothing was seen: nothing is known";
 }
 
 TEST(PlacePose, FindsTheCameraAmongWrongPairs) {
@@ -102,7 +102,7 @@ TEST(PlacePose, FindsTheCameraAmongWrongPairs) {
   Pose truth = camera_at(0.4);
   truth.linear() = stillpoint::rotation_from_vector({0.02, 0.1, -0.05});
   slam::Frame frame = made_frame(points, truth);
-  for (std::size_t i = 0; i < 30; ++i) frame.depth_m[i] += 0.5;  // things that have moved
+  for (std::size_t i = 0; i < 30; ++i) frame.depth_m[i] += 0.5;  // what has moved
   slam::PlacePose place_pose(camera(), slam::MeasurementNoise{});
   const std::optional<Pose> found = place_pose(frame, 1, map);
   ASSERT_TRUE(found);
@@ -175,8 +175,8 @@ TEST(LoopClosing, IsSwitchedOff) {
 }
 
 // Two desks of the same make, one metre apart, with the same corners. What stands on them is not the same.
-TEST(LoopClosing, ThingsTellTwoEqualDesksApart) {
-  for (const bool compares_things : {false, true}) {
+TEST(LoopClosing, ObjectsTellTwoEqualDesksApart) {
+  for (const bool compares_objects : {false, true}) {
     ComesBack world(12, 0.1);
     // The second desk: the same descriptors and shape, elsewhere; seen by two keyframes of the middle of the path.
     const Vector3d aside(1, 0, 0);
@@ -193,12 +193,12 @@ TEST(LoopClosing, ThingsTellTwoEqualDesksApart) {
     world.loop_closing.index.remove(second);
     world.loop_closing.index.add(desk);
     for (const slam::KeyframeId id : {0, 1, world.newest - 1, world.newest})
-      world.map.keyframe(id).things = {{62, 0.2, 0.5}, {41, 0.8, 0.6}};
-    desk.things = {{66, 0.2, 0.5}, {58, 0.8, 0.6}};
-    world.loop_closing.options.compares_things = compares_things;
+      world.map.keyframe(id).objects = {{62, 0.2, 0.5}, {41, 0.8, 0.6}};
+    desk.objects = {{66, 0.2, 0.5}, {58, 0.8, 0.6}};
+    world.loop_closing.options.compares_objects = compares_objects;
     world.loop_closing.options.fewest_between = 8;
     const auto recognised = world.loop_closing.recognise(world.newest, world.map);
-    if (compares_things) {
+    if (compares_objects) {
       ASSERT_TRUE(recognised);
       EXPECT_LT(recognised->loop.place, 2);
     } else {
