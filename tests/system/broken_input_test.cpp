@@ -41,7 +41,7 @@ class BrokenInput : public testing::Test {
 TEST_F(BrokenInput, SoundFolderRuns) {
   const Outcome outcome = run_program(arguments("--prior boxes"));
   EXPECT_EQ(outcome.status, 0) << outcome.error;
-  EXPECT_EQ(files_in(out).size(), 7u);
+  EXPECT_EQ(files_in(out).size(), 8u);
 }
 
 TEST_F(BrokenInput, MissingFolder) {
@@ -76,7 +76,7 @@ TEST_F(BrokenInput, UnreadableDepthLeavesOlderResultsAlone) {
   write_text(sequence / image, "");
   expect_error(arguments("--features 50"), {image, "cannot be read"});
   EXPECT_EQ(read_text(out / "features.csv"), before);
-  EXPECT_EQ(files_in(out).size(), 7u);
+  EXPECT_EQ(files_in(out).size(), 8u);
 }
 
 TEST_F(BrokenInput, AssociationsThatNameAMissingFile) {
@@ -123,7 +123,7 @@ TEST_F(BrokenInput, PathsWithOddCharactersAreNamedInOneLine) {
   fs::rename(sequence, odd);
   const Outcome outcome = run_program("--quiet --backend none --tum " + quoted(odd) + " --out " + quoted(odd / "out?"));
   EXPECT_EQ(outcome.status, 0) << outcome.error;
-  EXPECT_EQ(files_in(odd / "out?").size(), 7u);
+  EXPECT_EQ(files_in(odd / "out?").size(), 8u);
 }
 
 TEST_F(BrokenInput, FrameTimeTwice) {
