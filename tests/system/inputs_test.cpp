@@ -265,7 +265,7 @@ TEST_F(Inputs, CtrlCAndAPoliteKillEndARunWithItsReport) {
                                 quoted(out / "features.csv.partial0") + " ]; do :; done; kill -" + signal +
                                 " $run; wait $run";
     EXPECT_EQ(std::system(command.c_str()), 0) << signal;
-    EXPECT_EQ(files_in(out).size(), 7u) << signal;
+    EXPECT_EQ(files_in(out).size(), 8u) << signal;
     EXPECT_TRUE(report()["interrupted"]);
     EXPECT_LT(report()["frames"], 60);
     EXPECT_GE(report()["frames"], 1);
