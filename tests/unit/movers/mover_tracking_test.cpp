@@ -138,7 +138,7 @@ double median(const std::vector<double>& values) { return error_statistics(value
 
 TEST(MoverTracking, TwoPeopleWhoCrossKeepTheirIdentifiers) {
   const SceneRun run(synthetic::crossing_people(vga(66)));
-  for (const std::size_t person : {0, 1}) {
+  for (const std::size_t person : {0u, 1u}) {
     const MoverFigures figures = run.score.figures(person);
     EXPECT_GE(figures.frames, 40u);
     EXPECT_EQ(figures.switches, 0u) << "person " << person;
