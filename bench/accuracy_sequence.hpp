@@ -43,28 +43,33 @@ inline synthetic::Scene slow_mover() {
   return scene;
 }
 
+/// A rendered frame with its features.
+inline LabelledFrame labelled_frame(const SyntheticFrame& rendered, cv::Feature2D& detector) {
+  const MobilityTable mobility;
+  LabelledFrame frame;
+  frame.gray = as_mat(rendered.gray.view()).clone();
+  frame.depth = as_mat(rendered.depth.view()).clone();
+  frame.depth_factor = rendered.depth_factor;
+  frame.timestamp_s = rendered.timestamp_s;
+  frame.labels = as_mat(rendered.labels.view()).clone();
+  frame.world_from_camera = rendered.world_from_camera;
+  for (const synthetic::TruthBox& box : rendered.boxes)
+    frame.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y), static_cast<float>(box.width),
+                                 static_cast<float>(box.height)},
+                                mobility[box.class_name],
+                                1.0f});
+  detector.detect(frame.gray, frame.keypoints);
+  return frame;
+}
+
 inline LabelledSequence rendered_sequence(const synthetic::Scene& scene, std::size_t most_frames) {
   SyntheticSequence source(scene);
   LabelledSequence sequence{source.camera(), {}};
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
-  const MobilityTable mobility;
   SyntheticFrame rendered;
   for (int i = 0; i < source.size() && static_cast<std::size_t>(i) < most_frames; ++i) {
     source.render(i, rendered);
-    LabelledFrame frame;
-    frame.gray = as_mat(rendered.gray.view()).clone();
-    frame.depth = as_mat(rendered.depth.view()).clone();
-    frame.depth_factor = rendered.depth_factor;
-    frame.timestamp_s = rendered.timestamp_s;
-    frame.labels = as_mat(rendered.labels.view()).clone();
-    frame.world_from_camera = rendered.world_from_camera;
-    for (const synthetic::TruthBox& box : rendered.boxes)
-      frame.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y), static_cast<float>(box.width),
-                                   static_cast<float>(box.height)},
-                                  mobility[box.class_name],
-                                  1.0f});
-    orb->detect(frame.gray, frame.keypoints);
-    sequence.frames.push_back(std::move(frame));
+    sequence.frames.push_back(labelled_frame(rendered, *orb));
   }
   return sequence;
 }

@@ -6,10 +6,9 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <map>
@@ -23,6 +22,7 @@
 #include "stillpoint/evaluation/mover_score.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/table_reader.hpp"
+#include "stillpoint/io/trajectory_file.hpp"
 #include "stillpoint/policies/with_movers.hpp"
 #include "stillpoint/synthetic/realistic_scenes.hpp"
 
@@ -60,13 +60,7 @@ MoverSequence rendered(const synthetic::Scene& scene) {
   for (int f = 0; f < source.size(); ++f) {
     source.render(f, image);
     MoverFrame frame;
-    frame.gray = as_mat(image.gray.view()).clone();
-    frame.depth = as_mat(image.depth.view()).clone();
-    frame.depth_factor = image.depth_factor;
-    frame.timestamp_s = image.timestamp_s;
-    frame.labels = as_mat(image.labels.view()).clone();
-    frame.world_from_camera = image.world_from_camera;
-    orb->detect(frame.gray, frame.keypoints);
+    static_cast<LabelledFrame&>(frame) = labelled_frame(image, *orb);
     for (const Pose& pose : image.world_from_mover) frame.objects.push_back({pose, 0});
     const cv::Mat ids = as_mat(image.mover_ids.view());
     for (const cv::KeyPoint& keypoint : frame.keypoints) frame.object_of.push_back(label_at(ids, keypoint) - 1);
@@ -76,22 +70,17 @@ MoverSequence rendered(const synthetic::Scene& scene) {
   return sequence;
 }
 
-/// Poses of the objects by time and number.
+/// Poses of the objects by time, in milliseconds, and number; none where the folder has no such file: nothing moves.
+/// @throws Error where a row is not `timestamp object_id tx ty tz qx qy qz qw`
 std::map<std::pair<long, int>, Pose> object_poses(const std::filesystem::path& file) {
   std::map<std::pair<long, int>, Pose> poses;
-  std::FILE* const input = std::fopen(file.string().c_str(), "r");
-  if (input == nullptr) return poses;
-  char line[512];
-  while (std::fgets(line, sizeof line, input) != nullptr) {
-    double t = 0, x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 1;
-    int id = 0;
-    if (std::sscanf(line, "%lf %d %lf %lf %lf %lf %lf %lf %lf", &t, &id, &x, &y, &z, &qx, &qy, &qz, &qw) != 9) continue;
-    Pose pose = Pose::Identity();
-    pose.linear() = Eigen::Quaterniond(qw, qx, qy, qz).normalized().toRotationMatrix();
-    pose.translation() = Vector3d(x, y, z);
-    poses[{std::lround(t * 1000), id}] = pose;
+  if (!std::filesystem::exists(file)) return poses;
+  TableReader rows(file);
+  while (rows.next_row()) {
+    rows.require_columns(9, "timestamp object_id tx ty tz qx qy qz qw");
+    const long time_ms = std::lround(rows.number(0, "timestamp") * 1000);
+    poses[{time_ms, static_cast<int>(rows.number(1, "object_id"))}] = pose_in_row(rows, 2);
   }
-  std::fclose(input);
   return poses;
 }
 
@@ -136,25 +125,11 @@ double median(const std::vector<double>& values) { return error_statistics(value
 void measure(const std::string& name, const MoverSequence& sequence) {
   FrameFilter<WithMovers<>> filter(sequence.camera);
   MoverScore score(sequence.object_count);
-  const bool debug = std::getenv("STILLPOINT_MOVERS_DEBUG") != nullptr;
   double total_ms = 0, movers_ms = 0;
   for (const MoverFrame& frame : sequence.frames) {
     const FrameResult& result = filter.filter_frame(frame.view(), frame.keypoints);
     total_ms += result.timings().total_ms();
     movers_ms += result.timings()[Stage::movers];
-    if (debug) {
-      std::fprintf(stderr, "%.3f", frame.timestamp_s);
-      for (const TrueObject& object : frame.objects) std::fprintf(stderr, " [%zu]", object.moving_features);
-      for (const Mover& m : result.movers()) {
-        std::map<int, int> on;
-        for (const std::uint32_t i : result.features(m)) ++on[frame.object_of[i]];
-        std::fprintf(stderr, " | %u %s %zu/%zu", m.id, to_string(m.state), m.feature_count, m.pixel_count);
-        for (const auto& [o, n] : on) std::fprintf(stderr, " %d:%d", o, n);
-        std::fprintf(stderr, " z%.1f v%.2f,%.2f,%.2f%s", m.centroid.z(), m.velocity.x(), m.velocity.y(), m.velocity.z(),
-                     m.has_rotation ? " R" : "");
-      }
-      std::fprintf(stderr, "\n");
-    }
     score.add_frame(frame.timestamp_s, frame.world_from_camera.value_or(Pose::Identity()), frame.objects,
                     frame.object_of, result);
   }

@@ -18,28 +18,36 @@
 
 namespace stillpoint {
 
+/// The pose in the columns tx ty tz qx qy qz qw of a row, from `first` on.
+/// @throws Error unless they are finite numbers and the quaternion has a direction.
+inline Pose pose_in_row(const TableReader& rows, std::size_t first) {
+  constexpr double kShortestQuaternion = 1e-6;  // the last decimal of such files: shorter is no direction
+  static constexpr const char* kNames[] = {"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+  double values[7];
+  for (std::size_t i = 0; i < 7; ++i) values[i] = rows.number(first + i, kNames[i]);
+  Eigen::Quaterniond rotation(values[6], values[3], values[4], values[5]);
+  const double length = rotation.coeffs().stableNorm();
+  if (!(length > kShortestQuaternion)) rows.fail("a quaternion of length zero", "qx qy qz qw of length one");
+  rotation.coeffs() /= length;
+
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation.toRotationMatrix();
+  pose.translation() = Vector3d(values[0], values[1], values[2]);
+  return pose;
+}
+
 /// Reads a trajectory. Quaternions of any length but zero are taken and normalised; a file without a row is an empty
 /// trajectory.
 /// @throws Error with file and line for a row that is not eight finite numbers, a quaternion of length zero, or a time
 ///         before that of the row above.
 inline Trajectory read_trajectory(const std::filesystem::path& file) {
-  constexpr double kShortestQuaternion = 1e-6;  // the last decimal of such files: shorter is no direction
-  static constexpr const char* kNames[] = {"timestamp", "tx", "ty", "tz", "qx", "qy", "qz", "qw"};
   Trajectory trajectory;
   TableReader rows(file);
   for (double previous_s = TableReader::kBeforeAllTime; rows.next_row();) {
     rows.require_columns(8, "timestamp tx ty tz qx qy qz qw");
-    double values[8];
-    for (std::size_t i = 0; i < 8; ++i) values[i] = rows.number(i, kNames[i]);
-    Eigen::Quaterniond world_from_camera(values[7], values[4], values[5], values[6]);
-    const double length = world_from_camera.coeffs().stableNorm();
-    if (!(length > kShortestQuaternion)) rows.fail("a quaternion of length zero", "qx qy qz qw of length one");
-    world_from_camera.coeffs() /= length;
-
     StampedPose pose;
     pose.timestamp_s = rows.time(0, previous_s);
-    pose.world_from_camera.linear() = world_from_camera.toRotationMatrix();
-    pose.world_from_camera.translation() = Vector3d(values[1], values[2], values[3]);
+    pose.world_from_camera = pose_in_row(rows, 1);
     trajectory.push_back(pose);
   }
   return trajectory;
