@@ -5,22 +5,25 @@
 
 #include <stillpoint/compiled.hpp>
 #include <stillpoint/filter_frame.hpp>
-#include <stillpoint/policies/default_policies.hpp>
+#include <stillpoint/policies/with_movers.hpp>
 
 namespace stillpoint {
 
-template class FrameFilter<DefaultPolicies>;
+// One filter for hosts with movers and without: switched off, they cost nothing, and no verdict depends on them.
+template class FrameFilter<WithMovers<DefaultPolicies>>;
 
 namespace detail {
 
-class CompiledEngine : public FrameFilter<DefaultPolicies> {
+class CompiledEngine : public FrameFilter<WithMovers<DefaultPolicies>> {
  public:
-  using FrameFilter<DefaultPolicies>::FrameFilter;
+  using FrameFilter<WithMovers<DefaultPolicies>>::FrameFilter;
 };
 
 template <class HostAbi>
-auto CompiledFilter<HostAbi>::create(const Camera& camera) -> Engine* {
-  return new Engine(camera);
+auto CompiledFilter<HostAbi>::create(const Camera& camera, bool has_movers) -> Engine* {
+  auto* const engine = new Engine(camera);
+  engine->movers.is_on = has_movers;
+  return engine;
 }
 
 template <class HostAbi>
@@ -33,6 +36,11 @@ auto CompiledFilter<HostAbi>::stages(Engine& engine) -> Stages {
   return {engine.camera,  engine.frame_check, engine.depth_noise,    engine.depth_lookup, engine.prior,
           engine.matcher, engine.ego_motion,  engine.scorer,         engine.gate,         engine.classifier,
           engine.memory,  engine.keep_floor,  engine.mask_prediction};
+}
+
+template <class HostAbi>
+MoverTracking& CompiledFilter<HostAbi>::movers(Engine& engine) {
+  return engine.movers;
 }
 
 template <class HostAbi>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// FrameFilter<> of a host that links stillpoint::compiled: the library has the filter, with DefaultPolicies, and here
-// are declarations alone. stillpoint.hpp includes this in place of the pipeline where STILLPOINT_COMPILED is defined,
-// as the target does. What is called on the filter is the same in both.
+// FrameFilter<> and FrameFilter<WithMovers<>> of a host that links stillpoint::compiled: the library has the filter,
+// with DefaultPolicies, and here are declarations alone. stillpoint.hpp includes this in place of the pipeline where
+// STILLPOINT_COMPILED is defined, as the target does. What is called on the filter is the same in both.
 
 #include <memory>
 #include <string>
@@ -32,6 +32,7 @@ class ReprojectionScore;
 class SurfaceClusters;
 class EvidenceMemory;
 class MaskPrediction;
+class MoverTracking;
 
 namespace detail {
 
@@ -63,9 +64,10 @@ struct CompiledFilter {
     MaskPrediction& mask_prediction;
   };
 
-  static Engine* create(const Camera& camera);
+  static Engine* create(const Camera& camera, bool has_movers);
   static void destroy(Engine* engine) noexcept;
   static Stages stages(Engine& engine);
+  static MoverTracking& movers(Engine& engine);
   static const FrameResult& filter_frame(Engine& engine, const FrameView& frame, span<const Vector2f> pixels);
   static void feedback(Engine& engine, const Pose& world_from_camera);
   static void expect_motion(Engine& engine, const Pose& current_from_reference);
@@ -87,7 +89,10 @@ struct CompiledFilter {
 /// stages are references: to set options of one that is only declared here, include the stage's header.
 template <>
 class FrameFilter<CompiledPolicies> {
+ protected:
   using Compiled = detail::CompiledFilter<Abi>;
+
+ private:
   std::unique_ptr<Compiled::Engine, Compiled::Destroy> engine_;  // made before what refers to it
 
  public:
@@ -98,7 +103,7 @@ class FrameFilter<CompiledPolicies> {
   using EgoMotion = SupportMotion;
   using Memory = EvidenceMemory;
 
-  explicit FrameFilter(const Camera& camera_model) : FrameFilter(Compiled::create(camera_model)) {}
+  explicit FrameFilter(const Camera& camera_model) : FrameFilter(Compiled::create(camera_model, false)) {}
   FrameFilter(FrameFilter&&) noexcept = default;
 
   Camera& camera;                   ///< intrinsics and distortion; one of another size begins anew
@@ -128,8 +133,10 @@ class FrameFilter<CompiledPolicies> {
   std::string options_error() { return Compiled::options_error(*engine_); }
   void reset() { Compiled::reset(*engine_); }
 
- private:
+ protected:
   explicit FrameFilter(Compiled::Engine* engine) : FrameFilter(engine, Compiled::stages(*engine)) {}
+
+ private:
   FrameFilter(Compiled::Engine* engine, const Compiled::Stages& stages)
       : engine_(engine),
         camera(stages.camera),
@@ -147,6 +154,24 @@ class FrameFilter<CompiledPolicies> {
         mask_prediction(stages.mask_prediction) {}
 
   std::vector<Vector2f> pixels_;
+};
+
+template <>
+struct WithMovers<CompiledPolicies> {
+  using Movers = MoverTracking;
+};
+
+/// `FrameFilter<WithMovers<DefaultPolicies>>` in the library: the same filter, whose results have movers.
+template <>
+class FrameFilter<WithMovers<CompiledPolicies>> : public FrameFilter<CompiledPolicies> {
+ public:
+  explicit FrameFilter(const Camera& camera_model) : FrameFilter(Compiled::create(camera_model, true)) {}
+
+  MoverTracking& movers;  ///< which objects move, and how?
+
+ private:
+  explicit FrameFilter(Compiled::Engine* engine)
+      : FrameFilter<CompiledPolicies>(engine), movers(Compiled::movers(*engine)) {}
 };
 
 }  // namespace stillpoint

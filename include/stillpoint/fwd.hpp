@@ -27,9 +27,14 @@ struct PaperRigidPolicies;
 struct CompiledPolicies;  // those of the library stillpoint::compiled (compiled.hpp)
 #ifdef STILLPOINT_COMPILED
 template <class Policies = CompiledPolicies>
+class FrameFilter;
+template <class Policies = CompiledPolicies>
+struct WithMovers;  // policies/with_movers.hpp
 #else
 template <class Policies = DefaultPolicies>
-#endif
 class FrameFilter;
+template <class Policies = DefaultPolicies>
+struct WithMovers;
+#endif
 
 }  // namespace stillpoint

@@ -51,8 +51,8 @@ allowed() {
     version.hpp | fwd.hpp) rule="$1 includes nothing" ;;
     opencv.hpp) rule='opencv.hpp includes core/ and OpenCV'
       printf '%s\n' "$std" "$opencv" "$core" ;;
-    policies) rule='policies/ includes core/, depth/, the stages and its own folder'
-      printf '%s\n' "$std" "$core" "$depth" "$own" "${stages[@]}" ;;
+    policies) rule='policies/ includes core/, depth/, the stages, its own folder and compiled.hpp'
+      printf '%s\n' "$std" "$core" "$depth" "$own" '"stillpoint/fwd.hpp"' '"stillpoint/compiled.hpp"' "${stages[@]}" ;;
     policies.hpp) rule='policies.hpp includes policies/, core/, depth/ and the stages'
       printf '%s\n' "$std" "$core" "$depth" '"stillpoint/policies/*"' "${stages[@]}" ;;
     compiled.hpp) rule='compiled.hpp includes core/, depth/, pipeline/ and the stages that a host sets'

@@ -158,7 +158,7 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
       changed = changed || nearest.index(i) != result.cluster[i];
       result.cluster[i] = nearest.index(i);
       const auto c = static_cast<std::size_t>(nearest.index(i));
-      sum[c] += points[i].cast<double>();
+      sum[c] += Vector3d(points[i].cast<double>());
       ++result.member_count[c];
       left += static_cast<double>(nearest.squared(i));
     }
@@ -170,7 +170,7 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
             (farthest == points.size || nearest.squared(i) > nearest.squared(farthest)))
           farthest = i;
       const auto old = static_cast<std::size_t>(result.cluster[farthest]);
-      sum[old] -= points[farthest].cast<double>();
+      sum[old] -= Vector3d(points[farthest].cast<double>());
       --result.member_count[old];
       sum[c] = points[farthest].cast<double>();
       result.member_count[c] = 1;

@@ -132,7 +132,7 @@ class SurfaceClusters {
       const std::size_t i = member[j];
       constexpr double kApart = 1000.0;  // regions share no cluster
       const Vector2d lateral =
-          matches.current.pixel[i].cast<double>() / (kExtent_px * static_cast<double>(matches.pixel_scale));
+          Vector2d(matches.current.pixel[i].cast<double>()) / (kExtent_px * static_cast<double>(matches.pixel_scale));
       points.set(j, {lateral.x(), lateral.y(), whitened[j] + kApart * (regions.of_feature[i].dynamic_region + 1)});
     }
     const std::size_t wanted = std::max(fewest_clusters, count / options.features_per_cluster);

@@ -30,7 +30,7 @@ class PinholeCamera {
     require(width > 0, "width", width, "a positive number of pixels");
     require(height > 0, "height", height, "a positive number of pixels");
     // A point that every coefficient moves: one that is not finite shows, whatever the model.
-    require(distortion_.distort(Vector2d(0.1, 0.2)).allFinite(), "distortion", "not finite", "finite coefficients");
+    require(is_finite(distortion_.distort(Vector2d(0.1, 0.2))), "distortion", "not finite", "finite coefficients");
   }
 
   double fx() const noexcept { return fx_; }

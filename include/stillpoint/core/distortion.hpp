@@ -4,8 +4,6 @@
 
 // Lens distortion on the normalised image plane (z = 1): what the lens does to a ray, and its inverse.
 
-#include <Eigen/LU>
-
 #include <cmath>
 #include <variant>
 
@@ -37,11 +35,17 @@ struct BrownConrady {
     for (int iteration = 0; iteration < 20; ++iteration) {
       const Vector2d error = distort(ideal) - distorted;
       if (error.squaredNorm() < 1e-24) break;
-      const Vector2d step = jacobian(ideal).inverse() * error;
-      if (!step.allFinite() || step.norm() > 1.0) break;
+      const Vector2d step = solved(jacobian(ideal), error);
+      if (!is_finite(step) || step.norm() > 1.0) break;
       ideal -= step;
     }
     return ideal;
+  }
+
+  /// The x for which j x = b, by Cramer's rule.
+  static Vector2d solved(const Eigen::Matrix2d& j, const Vector2d& b) noexcept {
+    const double determinant = j(0, 0) * j(1, 1) - j(0, 1) * j(1, 0);
+    return {(j(1, 1) * b.x() - j(0, 1) * b.y()) / determinant, (j(0, 0) * b.y() - j(1, 0) * b.x()) / determinant};
   }
 
   /// ∂distort/∂ideal.

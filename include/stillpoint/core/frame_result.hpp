@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/motion.hpp"
@@ -82,10 +83,10 @@ class FrameResult {
     width_ = width;
     height_ = height;
     pixel_.assign(pixels.begin(), pixels.end());
-    labels_.assign(pixels.size(), Label{});
-    scores_.assign(pixels.size(), FeatureScore{});
-    depth_m_.assign(pixels.size(), 0.0);
-    keep_.assign(pixels.size(), 1);
+    refill(labels_, pixels.size(), Label{});
+    refill(scores_, pixels.size(), FeatureScore{});
+    refill(depth_m_, pixels.size(), 0.0);
+    refill(keep_, pixels.size(), 1);
     kept_count_ = pixels.size();
     keep_floor_kept_ = 0;
     status_ = Status::ok;

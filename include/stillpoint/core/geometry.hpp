@@ -9,6 +9,7 @@
 
 #include <cmath>
 
+#include "stillpoint/core/fixed_size_operators.hpp"
 #include "stillpoint/core/no_fast_math.hpp"
 
 namespace stillpoint {
@@ -22,6 +23,37 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 /// Rigid motion, named `target_from_source`: maps points of source into target, metres.
 using Pose = Eigen::Isometry3d;
+
+inline Matrix3d rotation_of(const Pose& pose) { return pose.linear(); }
+
+inline Vector3d translation_of(const Pose& pose) { return pose.translation(); }
+
+inline Pose make_pose(const Matrix3d& rotation, const Vector3d& translation) {
+  Pose pose = Pose::Identity();
+  pose.linear() = rotation;
+  pose.translation() = translation;
+  return pose;
+}
+
+/// A small motion x = (ω, v): rotation vector, translation.
+inline Vector3d rotation_part(const Vector6d& x) { return {x(0), x(1), x(2)}; }
+inline Vector3d translation_part(const Vector6d& x) { return {x(3), x(4), x(5)}; }
+inline Vector6d joined(const Vector3d& rotation, const Vector3d& translation) {
+  Vector6d x;
+  for (int i = 0; i < 3; ++i) {
+    x(i) = rotation(i);
+    x(3 + i) = translation(i);
+  }
+  return x;
+}
+
+/// Whether no entry is infinite or NaN.
+template <class Scalar, int Rows, int Columns>
+bool is_finite(const Eigen::Matrix<Scalar, Rows, Columns>& m) noexcept {
+  for (int i = 0; i < Rows * Columns; ++i)
+    if (!std::isfinite(m.data()[i])) return false;
+  return true;
+}
 
 /// What std::lround gives, for what fits an int, without a call: half a pixel is rounded away from 0.
 inline int rounded(float pixel) noexcept {
@@ -41,11 +73,19 @@ inline Matrix3d skew(const Vector3d& a) {
   return m;
 }
 
+/// a bᵀ.
+inline Matrix3d outer_product(const Vector3d& a, const Vector3d& b) {
+  Matrix3d m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) m(i, j) = a(i) * b(j);
+  return m;
+}
+
 /// Rotation by the vector ω (axis times angle, radians): Rodrigues' formula, I cos + [a]× sin + a aᵀ (1 - cos). Written
 /// out, as Eigen::AngleAxis has it, which takes every file longer to compile.
 inline Matrix3d rotation_from_vector(const Vector3d& omega) {
   const double angle = omega.norm();
-  if (angle < 1e-12) return Matrix3d::Identity() + skew(omega);
+  if (angle < 1e-12) return Matrix3d(Matrix3d::Identity()) + skew(omega);
   const double x = omega.x() / angle, y = omega.y() / angle, z = omega.z() / angle;
   const double sine = std::sin(angle), cosine = std::cos(angle), versine = 1.0 - cosine;
   const double xy = versine * x * y, xz = versine * x * z, yz = versine * y * z;
@@ -66,36 +106,30 @@ inline double rotation_angle(const Matrix3d& rotation) {
 /// The vector ω of a rotation, radians: the inverse of `rotation_from_vector`.
 inline Vector3d vector_from_rotation(const Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
-  const double sine = q.vec().norm();  // of half the angle
-  if (!(sine > 1e-12)) return (q.w() < 0.0 ? -2.0 : 2.0) * q.vec();
-  return 2.0 * std::atan2(sine, std::abs(q.w())) * (q.vec() / (q.w() < 0.0 ? -sine : sine));  // q and -q are the same
+  const Vector3d axis = q.vec();
+  const double sine = axis.norm();  // of half the angle
+  if (!(sine > 1e-12)) return (q.w() < 0.0 ? -2.0 : 2.0) * axis;
+  return 2.0 * std::atan2(sine, std::abs(q.w())) * (axis / (q.w() < 0.0 ? -sine : sine));  // q and -q are the same
 }
 
 /// The motion back: source_from_target. What `Pose::inverse` gives; that compiles four ways to invert for the one that
 /// is taken, a fifth of a second in every file.
 inline Pose inverted(const Pose& motion) {
-  Pose result = Pose::Identity();
-  result.linear() = motion.linear().transpose();
-  result.translation() = -(result.linear() * motion.translation());
-  return result;
+  const Matrix3d rotation = rotation_of(motion).transpose();
+  return make_pose(rotation, -(rotation * translation_of(motion)));
 }
 
 /// A share of a small motion, to first order: rotation angle and translation times `factor`.
 inline Pose scaled(const Pose& motion, double factor) {
   if (std::abs(factor - 1.0) < 1e-6) return motion;  // evenly spaced frames: rounding of their time stamps only
-  Pose result = Pose::Identity();
-  result.linear() = rotation_from_vector(factor * vector_from_rotation(motion.linear()));
-  result.translation() = factor * motion.translation();
-  return result;
+  return make_pose(rotation_from_vector(factor * vector_from_rotation(rotation_of(motion))),
+                   factor * translation_of(motion));
 }
 
 /// The same pose with its rotation made orthonormal again: products of many poses, and `inverted` (which transposes),
 /// drift away from it.
 inline Pose orthonormalized(const Pose& pose) {
-  Pose result = Pose::Identity();
-  result.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
-  result.translation() = pose.translation();
-  return result;
+  return make_pose(Eigen::Quaterniond(rotation_of(pose)).normalized().toRotationMatrix(), translation_of(pose));
 }
 
 }  // namespace stillpoint

@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/past_observations.hpp"
 #include "stillpoint/core/span.hpp"
@@ -36,11 +37,11 @@ struct FrameFeatures {
 
   void resize(std::size_t count) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    pixel.resize(count, Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()));
-    undistorted.resize(count, Vector2d::Constant(kNaN));
-    depth_m.resize(count, 0.0);
-    depth_sigma_m.resize(count, std::numeric_limits<double>::infinity());
-    point.resize(count, Vector3d::Constant(kNaN));
+    extend(pixel, count, Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()));
+    extend(undistorted, count, Vector2d::Constant(kNaN));
+    extend(depth_m, count, 0.0);
+    extend(depth_sigma_m, count, std::numeric_limits<double>::infinity());
+    extend(point, count, Vector3d::Constant(kNaN));
   }
 
   /// Writes what is known of feature `i` at a depth (0: none) with the noise of that depth.
@@ -112,10 +113,10 @@ struct Matches {
   void resize(std::size_t count) {
     current.resize(count);
     reference.resize(count);
-    state.resize(count, MatchState::lost);
-    predicted.resize(count, Vector2f::Zero());
-    was_there.resize(count, 0);
-    space_trust.resize(count, 1.0f);
+    extend(state, count, MatchState::lost);
+    extend(predicted, count, Vector2f::Zero());
+    extend(was_there, count, 0);
+    extend(space_trust, count, 1.0f);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
@@ -72,7 +73,7 @@ struct Movers {
     list.clear();
     feature.clear();
     pixel.clear();
-    of_feature.assign(feature_count, kNone);
+    refill(of_feature, feature_count, kNone);
   }
 };
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/score.hpp"
@@ -24,7 +25,7 @@ struct Remembered {
   /// Nothing is remembered: the trust is what the space of the past seconds says.
   void begin(const Matches& matches) {
     trust = matches.space_trust;
-    log_odds.assign(matches.size(), 0.0f);
+    refill(log_odds, matches.size(), 0.0f);
     surface_trust.resize(matches.past_observations.surfaces.size());
     std::transform(matches.past_observations.surfaces.begin(), matches.past_observations.surfaces.end(),
                    surface_trust.begin(), [](const SurfaceCell& cell) { return cell.space_trust; });

@@ -108,7 +108,7 @@ class OptionCheck {
   template <class T>
   void operator()(const char* name, const T& value, const OptionRange& range) {
     if (error_.empty() && !range.contains(static_cast<double>(value)))
-      error_ = path(name) + " is " + option_text(value) + ", expected " + expected_of<T>(range);
+      report(name, option_text(value), expected_of<T>(range));
   }
   template <class T>
   void operator()(const char* name, T& value) {
@@ -128,14 +128,17 @@ class OptionCheck {
   template <class T, class... Words>
   void choice(const char* name, const T& value, Words... words) {
     const auto index = static_cast<std::size_t>(value);
-    if (error_.empty() && index >= sizeof...(Words))
-      error_ = path(name) + " is " + option_text(index) + ", expected " + expected_of_choice(words...);
+    if (error_.empty() && index >= sizeof...(Words)) report(name, option_text(index), expected_of_choice(words...));
   }
 
  private:
   /// The option with its groups, as in `matcher.corners.cell_px`.
   std::string path(const char* name) const {
     return outer_ == nullptr ? std::string(name) : outer_->path(group_) + '.' + name;
+  }
+
+  void report(const char* name, const std::string& found, const std::string& expected) {
+    error_ = path(name) + " is " + found + ", expected " + expected;
   }
 
   const OptionCheck* outer_ = nullptr;

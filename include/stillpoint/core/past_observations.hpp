@@ -9,6 +9,7 @@
 #include <limits>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -99,10 +100,10 @@ class PastObservations {
   OlderFrame& add(std::size_t feature_count) {
     if (count_ == frames_.size()) frames_.emplace_back();
     OlderFrame& frame = frames_[count_++];
-    frame.of_feature.assign(feature_count, Observation{});
-    point.resize(feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
-    inverse_depth_sigma.resize(feature_count, std::numeric_limits<double>::infinity());
-    seen_through.resize(feature_count, 0);
+    refill(frame.of_feature, feature_count, Observation{});
+    extend(point, feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+    extend(inverse_depth_sigma, feature_count, std::numeric_limits<double>::infinity());
+    extend(seen_through, feature_count, 0);
     frame.of_surface.clear();
     return frame;
   }

@@ -21,27 +21,11 @@ class PixelGrid {
   template <class Accept>
   PixelGrid(span<const Vector2f> pixels, float cell_px, Workspace& workspace, const Accept& accept)
       : cells_per_px_(1.0f / cell_px) {
-    // In the order of the list, then moved to the cells.
     const span<Entry> listed = workspace.take<Entry>(pixels.size());
     std::size_t count = 0;
-    Vector2f largest = Vector2f::Zero();
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      if (!pixels[i].allFinite() || !accept(i)) continue;
-      largest = largest.cwiseMax(pixels[i]);
-      listed[count++] = {pixels[i], static_cast<std::uint32_t>(i)};
-    }
-    const auto cells_to = [this](float largest_px) {
-      return std::min(static_cast<std::size_t>(std::min(largest_px, kLargest_px) * cells_per_px_) + 1, kMostCells);
-    };
-    columns_ = cells_to(largest.x());
-    rows_ = cells_to(largest.y());
-    begin_ = workspace.take<std::uint32_t>(columns_ * rows_ + 1);
-    entry_ = workspace.take<Entry>(count);
-    // Counting sort: count, sum up, put in place from behind.
-    for (const Entry& entry : listed.first(count)) ++begin_[cell(entry.pixel)];
-    std::uint32_t sum = 0;
-    for (std::uint32_t& entry : begin_) entry = sum += entry;
-    for (std::size_t k = count; k-- > 0;) entry_[--begin_[cell(listed[k].pixel)]] = listed[k];
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      if (is_finite(pixels[i]) && accept(i)) listed[count++] = {pixels[i], static_cast<std::uint32_t>(i)};
+    sort_into_cells(listed.first(count), workspace);
   }
 
   /// Calls `visit(index, squared_distance_px)` for every point within `radius_px`, cell by cell, in a fixed order.
@@ -59,7 +43,7 @@ class PixelGrid {
   /// that the circle touches: all within it and some beyond, for loops that weigh instead of asking.
   template <class Visit>
   void runs_around(const Vector2f& pixel, float radius_px, const Visit& visit) const {
-    if (!pixel.allFinite() || !(pixel.cwiseAbs().maxCoeff() < 2 * kLargest_px)) return;
+    if (!is_finite(pixel) || !(std::max(std::abs(pixel.x()), std::abs(pixel.y())) < 2 * kLargest_px)) return;
     const std::size_t u0 = clamped(pixel.x() - radius_px, columns_), u1 = clamped(pixel.x() + radius_px, columns_);
     const std::size_t v0 = clamped(pixel.y() - radius_px, rows_), v1 = clamped(pixel.y() + radius_px, rows_);
     for (std::size_t v = v0; v <= v1; ++v)
@@ -79,6 +63,24 @@ class PixelGrid {
 
   static constexpr float kLargest_px = 1e5f;
   static constexpr std::size_t kMostCells = 512;  // to a side: the last ones take in what is farther away
+
+  /// A counting sort: count, sum up, put in place from behind.
+  void sort_into_cells(span<const Entry> listed, Workspace& workspace) {
+    Vector2f largest = Vector2f::Zero();
+    for (const Entry& entry : listed)
+      largest = {std::max(largest.x(), entry.pixel.x()), std::max(largest.y(), entry.pixel.y())};
+    const auto cells_to = [this](float largest_px) {
+      return std::min(static_cast<std::size_t>(std::min(largest_px, kLargest_px) * cells_per_px_) + 1, kMostCells);
+    };
+    columns_ = cells_to(largest.x());
+    rows_ = cells_to(largest.y());
+    begin_ = workspace.take<std::uint32_t>(columns_ * rows_ + 1);
+    entry_ = workspace.take<Entry>(listed.size());
+    for (const Entry& entry : listed) ++begin_[cell(entry.pixel)];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& entry : begin_) entry = sum += entry;
+    for (std::size_t k = listed.size(); k-- > 0;) entry_[--begin_[cell(listed[k].pixel)]] = listed[k];
+  }
 
   std::size_t clamped(float coordinate_px, std::size_t count) const noexcept {
     return static_cast<std::size_t>(std::clamp(coordinate_px * cells_per_px_, 0.0f, static_cast<float>(count - 1)));

@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
 
@@ -115,7 +116,7 @@ struct Regions {
   /// Finds the regions of each feature. O(features × regions).
   /// @param depth_m  of each feature, 0 none; or none of them at all
   void locate(span<const Vector2f> pixels, span<const double> depth_m = {}) {
-    of_feature.assign(pixels.size(), Membership{});
+    refill(of_feature, pixels.size(), Membership{});
     for (std::size_t r = 0; r < detections.size(); ++r) {
       const Detection& detection = detections[r];
       for (std::size_t i = 0; i < pixels.size(); ++i) {

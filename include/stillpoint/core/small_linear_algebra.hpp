@@ -61,7 +61,9 @@ class Cholesky {
   Matrix inverse() const {
     Matrix result;
     for (int j = 0; j < N; ++j) {
-      const Vector column = solve(Vector::Unit(j));
+      Vector unit = Vector::Zero();
+      unit(j) = 1.0;
+      const Vector column = solve(unit);
       for (int i = 0; i < N; ++i) result(i, j) = column(i);
     }
     for (int j = 0; j < N; ++j)
@@ -74,6 +76,13 @@ class Cholesky {
   double l_[kSize][kSize];
   bool positive_definite_ = false;
 };
+
+/// The matrix with a little more on its diagonal: holds what nothing is known of.
+template <int N>
+Eigen::Matrix<double, N, N> held(Eigen::Matrix<double, N, N> matrix, double hold) {
+  for (int i = 0; i < N; ++i) matrix(i, i) += hold;
+  return matrix;
+}
 
 /// Eigenvalues and vectors of a symmetric matrix, which must be finite, by cyclic rotations. No allocation.
 /// Source: Golub and Van Loan, algorithm 8.5.3 (Jacobi).

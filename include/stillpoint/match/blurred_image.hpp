@@ -53,12 +53,14 @@ class BlurredImage {
   float at(int u, int v) const noexcept { return value_[index(u, v)]; }
 
   /// A pixel of this image in the full-sized one.
-  Vector2f to_full(const Vector2f& pixel) const noexcept { return ((pixel.array() + 0.5f) * scale_ - 0.5f).matrix(); }
+  Vector2f to_full(const Vector2f& pixel) const noexcept {
+    return {(pixel.x() + 0.5f) * scale_ - 0.5f, (pixel.y() + 0.5f) * scale_ - 0.5f};
+  }
 
   /// Bilinear value and slope, per pixel of the full-sized image. False outside.
   bool sample(const Vector2f& full_pixel, float& value, Vector2f& slope) const noexcept {
     const float per_px = 1.0f / scale_;
-    const Vector2f at_px = ((full_pixel.array() + 0.5f) * per_px - 0.5f).matrix();
+    const Vector2f at_px((full_pixel.x() + 0.5f) * per_px - 0.5f, (full_pixel.y() + 0.5f) * per_px - 0.5f);
     if (!(at_px.x() >= 0 && at_px.y() >= 0 && at_px.x() < static_cast<float>(width_ - 1) &&
           at_px.y() < static_cast<float>(height_ - 1)))
       return false;

@@ -24,7 +24,8 @@ double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& 
                         const Noise& noise, const DepthTolerance& same_surface) {
   constexpr int kRounds = 3;
   constexpr double kNearest_m = 0.1;
-  constexpr double kAgreed = 0.1;  // of what depths differ by on one surface
+  constexpr double kAgreed = 0.1;                                     // of what depths differ by on one surface
+  const Vector3d along = rotation_of(reference_from_current).col(2);  // this camera's axis, in the older one
   double depth_m = start_m;
   for (int round = 0; round < kRounds; ++round) {
     const Vector3d there = reference_from_current * camera.back_project(pixel, depth_m);
@@ -32,8 +33,8 @@ double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& 
     const Vector2d seen_at = camera.project(there);
     const double measured_m = guard.at(older, camera.distort(seen_at).template cast<float>(), noise);
     if (!(measured_m > 0)) return 0.0;
-    const Vector3d measured = camera.back_project(seen_at, measured_m) - reference_from_current.translation();
-    const double now_m = reference_from_current.linear().col(2).dot(measured);
+    const Vector3d measured = camera.back_project(seen_at, measured_m) - translation_of(reference_from_current);
+    const double now_m = measured.dot(along);
     if (std::abs(now_m - depth_m) < kAgreed * same_surface.at(noise.sigma(depth_m))) return now_m;
     depth_m = now_m;
   }

@@ -53,7 +53,7 @@ class CoarseAlignment {
       const Estimate found = descend(best.reference_from_current, reference_[level], camera);
       if (level == 0) {
         best = found;
-        if (!(image_motion_px(expected, camera) > reference_[0].scale())) continue;
+        if (!(image_motion_px(expected, camera) > static_cast<double>(reference_[0].scale()))) continue;
         const Estimate resting = descend(Pose::Identity(), reference_[0], camera);
         if (resting.cost < best.cost) best = resting;
       } else {
@@ -168,23 +168,27 @@ class CoarseAlignment {
   Step step_at(const Pose& pose, const BlurredImage& image, const Camera& camera) const {
     // Of each point a column: its six derivatives, its residual below. Σ weight column columnᵀ holds the normal matrix
     // and the gradient. Eight rows are two registers.
-    using Column = Eigen::Matrix<float, 8, 1>;
-    Eigen::Matrix<float, 8, 6> sums = Eigen::Matrix<float, 8, 6>::Zero();
+    constexpr std::size_t kUnknowns = 6, kRows = 8;
+    float sums[kUnknowns][kRows] = {};
     const auto fx = static_cast<float>(camera.fx()), fy = static_cast<float>(camera.fy());
     const auto add = [&](const Vector3d& there, const Vector2f& slope, float residual, float weight) {
       // ∂value / ∂there by the chain rule; there moves by ω × there + v.
-      const Eigen::Vector3f at = there.cast<float>();
-      const float gx = slope.x() * fx / at.z(), gy = slope.y() * fy / at.z();
-      const Eigen::Vector3f g(gx, gy, -(gx * at.x() + gy * at.y()) / at.z());
-      Column column;
-      column << at.y() * g.z() - at.z() * g.y(), at.z() * g.x() - at.x() * g.z(), at.x() * g.y() - at.y() * g.x(), g,
-          residual, 0.0f;
-      for (int i = 0; i < 6; ++i) sums.col(i) += (weight * column[i]) * column;
+      const auto x = static_cast<float>(there.x()), y = static_cast<float>(there.y()),
+                 z = static_cast<float>(there.z());
+      const float gx = slope.x() * fx / z, gy = slope.y() * fy / z, gz = -(gx * x + gy * y) / z;
+      const float column[kRows] = {y * gz - z * gy, z * gx - x * gz, x * gy - y * gx, gx, gy, gz, residual, 0.0f};
+      for (std::size_t i = 0; i < kUnknowns; ++i)
+        for (std::size_t row = 0; row < kRows; ++row) sums[i][row] += (weight * column[i]) * column[row];
     };
     Step step;
     step.cost = cost_at(pose, image, camera, add);
-    const Matrix6d held = sums.topRows<6>().cast<double>() + kHold * Matrix6d::Identity();
-    step.increment = -Cholesky<6>(held).solve(Vector6d(sums.row(6).transpose().cast<double>()));
+    Matrix6d normal;
+    Vector6d gradient;
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) normal(i, j) = static_cast<double>(sums[j][i]);
+      gradient(i) = static_cast<double>(sums[i][kUnknowns]);
+    }
+    step.increment = -Cholesky<6>(held(normal, kHold)).solve(gradient);
     return step;
   }
 
@@ -196,13 +200,11 @@ class CoarseAlignment {
       const Step step = step_at(pose, image, camera);
       const bool settled = !(step.cost < kSettled * estimate.cost) && iteration > 0;
       if (iteration == 0 || step.cost < estimate.cost) estimate = {pose, step.cost};
-      const double length = std::max(step.increment.head<3>().norm(), step.increment.tail<3>().norm());
+      const Vector3d turn = rotation_part(step.increment), shift = translation_part(step.increment);
+      const double length = std::max(turn.norm(), shift.norm());
       if (settled || !(length > kShortestStep)) break;
-      const double held = length > kLongestStep ? kLongestStep / length : 1.0;
-      Pose moved = Pose::Identity();
-      moved.linear() = rotation_from_vector(Vector3d(held * step.increment.head<3>()));
-      moved.translation() = held * step.increment.tail<3>();
-      pose = orthonormalized(moved * pose);
+      const double share = length > kLongestStep ? kLongestStep / length : 1.0;
+      pose = orthonormalized(make_pose(rotation_from_vector(share * turn), share * shift) * pose);
     }
     return estimate;
   }

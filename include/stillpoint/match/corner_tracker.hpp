@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stillpoint/core/capabilities.hpp"
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
@@ -58,7 +59,7 @@ class CornerTracker {
       const auto displacement = [&](const Pose& reference_from_current) {
         const Vector3d there = reference_from_current * point;
         if (!(there.z() > 0)) return Vector2f(Vector2f::Zero());
-        return Vector2f(camera.distort(camera.project(there)).template cast<float>() - corners_[c]);
+        return Vector2f(camera.distort(camera.project(there)).template cast<float>()) - corners_[c];
       };
       start_[c] = {displacement(guess), displacement(reference_from_expected), kSameSurface.at(noise.sigma(depth_m))};
     }
@@ -141,7 +142,7 @@ class CornerTracker {
       grid_corners(current_[kLevel], cell_px, kWeakestCorner, corners_, workspace_);
       for (Vector2f& corner : corners_) corner = rounded(Pyramid::from_level(corner, kLevel));
     }
-    start_.assign(corners_.size(), Start{});
+    refill(start_, corners_.size(), Start{});
   }
 
   /// @param start        displacement from which the search begins, pixels

@@ -89,7 +89,9 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
   const span<Best> best = workspace.take<Best>(static_cast<std::size_t>(cells_across));
   // Column sums of the gradient products over 2 kRadius + 1 rows slide down the image.
   constexpr int kRows = 2 * kRadius + 1;
-  const span<float> sums = workspace.take<float>(3 * width), strength = workspace.take<float>(2 * width);
+  const span<float> sums = workspace.take<float>(3 * width), strength = workspace.take<float>(width),
+                    half_trace = workspace.take<float>(width);
+  Eigen::Map<Eigen::ArrayXf> roots(strength.data(), columns);
   const span<float> products = workspace.take<float>(3 * width * kRows);
   const auto add_row = [&](int v) {
     detail::slide_down(image, v, products.data() + 3 * width * static_cast<std::size_t>(v % kRows), sums.data());
@@ -101,7 +103,6 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
     }
   };
   for (int v = kBorder - kRadius; v < kBorder + kRadius; ++v) add_row(v);
-  Eigen::Map<Eigen::ArrayXf> all(strength.data(), columns), half_trace(strength.data() + width, columns);
   for (int v = kBorder; v < rows - kBorder; ++v) {
     add_row(v + kRadius);
     const auto across = [](const float* of) {  // over 2 kRadius + 1 columns
@@ -109,18 +110,19 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
     };
     const auto sum_xx = across(sums.data()), sum_xy = across(sums.data() + width),
                sum_yy = across(sums.data() + 2 * width);
-    float *const mean = half_trace.data(), *const out = all.data();
+    float* const out = strength.data();
     for (int u = kBorder; u < columns - kBorder; ++u) {
       const float a = sum_xx(u), b = sum_xy(u), c = sum_yy(u);
-      mean[u] = 0.5f * (a + c);
+      half_trace[static_cast<std::size_t>(u)] = 0.5f * (a + c);
       out[u] = 0.25f * (a - c) * (a - c) + b * b;
     }
     // Eigen's roots come four at a time; std::sqrt's would one by one, because of errno.
-    all = half_trace - all.sqrt();
+    roots = roots.sqrt();
+    for (std::size_t u = 0; u < width; ++u) strength[u] = half_trace[u] - strength[u];
     for (int begin = 0, end = cell_px; begin < columns; begin = end, end += cell_px) {
       Best& cell = best[static_cast<std::size_t>(begin / cell_px)];
       const int first = std::max(begin, kBorder), last = std::min(end, columns - kBorder);
-      if (first >= last || !(all.segment(first, last - first).maxCoeff() > cell.strength)) continue;
+      if (first >= last || !(*std::max_element(out + first, out + last) > cell.strength)) continue;
       for (int u = first; u < last; ++u)
         if (out[u] > cell.strength) cell = {out[u], u, v};
     }

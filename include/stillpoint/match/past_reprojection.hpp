@@ -67,7 +67,7 @@ class PastReprojection {
         const double depth_m = matches.current.depth_m[i];
         look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), std::numeric_limits<float>::infinity(),
              history, current, camera, noise, matches);
-      } else if (i < matches.host_count && matches.current.undistorted[i].allFinite()) {
+      } else if (i < matches.host_count && is_finite(matches.current.undistorted[i])) {
         look_beside(i, history, current, camera, noise, matches);
       }
     }
@@ -204,12 +204,14 @@ class PastReprojection {
   template <class Camera>
   static Eigen::Matrix2f view_warp(const Camera& camera, const Vector3d& here, const Vector3d& there,
                                    const Pose& reference_from_current) {
-    const Eigen::Matrix3d& turn = reference_from_current.linear();
+    const Matrix3d turn = rotation_of(reference_from_current);
     const double x = there.x() / there.z(), y = there.y() / there.z(), aspect = camera.fx() / camera.fy();
-    Eigen::Matrix2d warp;
-    warp << turn(0, 0) - x * turn(2, 0), aspect * (turn(0, 1) - x * turn(2, 1)),  //
-        (turn(1, 0) - y * turn(2, 0)) / aspect, turn(1, 1) - y * turn(2, 1);
-    return (here.z() / there.z() * warp).template cast<float>();
+    const double scale = here.z() / there.z();
+    const auto scaled = [scale](double step) { return static_cast<float>(scale * step); };
+    Eigen::Matrix2f warp;
+    warp << scaled(turn(0, 0) - x * turn(2, 0)), scaled(aspect * (turn(0, 1) - x * turn(2, 1))),  //
+        scaled((turn(1, 0) - y * turn(2, 0)) / aspect), scaled(turn(1, 1) - y * turn(2, 1));
+    return warp;
   }
 };
 

@@ -206,7 +206,8 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
                            const PatchSearch& search) noexcept {
   PatchFit best;
   const float determinant = patch.hxx * patch.hyy - patch.hxy * patch.hxy;
-  const float warp_px = Patch::kHalf * (search.warp - Eigen::Matrix2f::Identity()).cwiseAbs().maxCoeff();
+  const float warp_px =
+      Patch::kHalf * (search.warp - Eigen::Matrix2f(Eigen::Matrix2f::Identity())).lpNorm<Eigen::Infinity>();
   const bool shifted_only = warp_px < 0.5f;
   Vector2f offset = Vector2f::Zero();
   PatchPixels sample;
@@ -240,7 +241,8 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
       by += without_gain * patch.without_means(along_y, patch.sum_y, total);
     }
     Vector2f step(-(patch.hyy * bx - patch.hxy * by) / determinant, -(patch.hxx * by - patch.hxy * bx) / determinant);
-    step = (search.warp * step).cwiseMax(-1.0f).cwiseMin(1.0f);
+    step = search.warp * step;
+    step = {std::clamp(step.x(), -1.0f, 1.0f), std::clamp(step.y(), -1.0f, 1.0f)};
     const Vector2f before = offset;
     offset += step;
     const float length = offset.norm();

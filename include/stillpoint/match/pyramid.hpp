@@ -28,12 +28,12 @@ class Pyramid {
   /// A pixel of the image in the coordinates of a level. Integer coordinates are pixel centres on every level.
   static Vector2f to_level(const Vector2f& pixel, std::size_t level) noexcept {
     const float scale = 1.0f / static_cast<float>(std::size_t{1} << level);
-    return ((pixel.array() + 0.5f) * scale - 0.5f).matrix();
+    return {(pixel.x() + 0.5f) * scale - 0.5f, (pixel.y() + 0.5f) * scale - 0.5f};
   }
 
   static Vector2f from_level(const Vector2f& pixel, std::size_t level) noexcept {
     const float scale = static_cast<float>(std::size_t{1} << level);
-    return ((pixel.array() + 0.5f) * scale - 0.5f).matrix();
+    return {(pixel.x() + 0.5f) * scale - 0.5f, (pixel.y() + 0.5f) * scale - 0.5f};
   }
 
  private:

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -23,7 +24,7 @@ class StaticWeights {
     const Remembered& remembered = observations.remembered;
     columns_ = std::max(1, (image_width + kCell_px - 1) / kCell_px);
     rows_ = std::max(1, (image_height + kCell_px - 1) / kCell_px);
-    sum_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
+    refill(sum_, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
     for (std::size_t i = 0; i < matches.size(); ++i)
       add(matches.current.pixel[i], labels[i].keep ? remembered.trust[i] : 0.0f, 1.0f);
     const span<const SurfaceCell> cells = matches.past_observations.surfaces;

@@ -65,7 +65,7 @@ struct SurfaceSearch {
                           const Camera& camera, const Noise& noise) const {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
-    const Vector2f pixel = camera.distort(camera.project(there)).template cast<float>().array().round();
+    const Vector2f pixel = rounded(Vector2f(camera.distort(camera.project(there)).template cast<float>()));
     const double depth_m = guard.at(older, pixel, noise);
     if (!(depth_m > 0)) return {};
     return {camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m), noise.sigma(depth_m)};

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stillpoint/core/capabilities.hpp"
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
@@ -45,8 +46,8 @@ class EvidenceMemory {
 
   /// Looks every feature and surface cell up in what is remembered, and says what trust and log-odds they have.
   void recall(const Matches& matches, Remembered& remembered, Workspace& workspace) {
-    recalled_.assign(matches.size(), Memory{});
-    recalled_of_cell_.assign(matches.past_observations.surfaces.size(), Memory{});
+    refill(recalled_, matches.size(), Memory{});
+    refill(recalled_of_cell_, matches.past_observations.surfaces.size(), Memory{});
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;

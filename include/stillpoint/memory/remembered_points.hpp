@@ -4,12 +4,11 @@
 
 // What the last frame knew of a place: weighted means over the remembered points around it, four points at a time.
 
-#include <Eigen/Core>
-
 #include <array>
 #include <cstddef>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/lanes.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -66,17 +65,15 @@ class RememberedPoints {
   /// @param depth_m      0 none
   /// @param tolerance_m  by which depths on its surface may differ
   Sums around(const Vector2f& pixel, float depth_m, float tolerance_m) const {
-    using Four = Eigen::Array4f;
-    // Eigen compares and chooses one number at a time, but takes minima and maxima of four: what is true is 1, what is
-    // false 0, "and" is a minimum, "or" a maximum. A step from 1 to 0 is a ramp so steep that no float lies on it.
-    constexpr float kSteep = 1e30f;
+    using Four = FloatLanes;
+    const Four none = {}, all = none + 1.0f;
     const float per_reach = 1.0f / (weights_.reach_px * weights_.reach_px);
     const float per_feature = 1.0f / (weights_.feature_px * weights_.feature_px);
     // One with a depth, one without: perhaps the same surface. In the vote they only count where there are no others.
     constexpr float kOtherKind = 0.2f, kVoteOfOtherKind = 0.02f;
     const float has_depth = depth_m > 0 ? 1.0f : 0.0f;
-    const Four lane(0.0f, 1.0f, 2.0f, 3.0f);
-    Four feature_weight = Four::Zero(), log_odds = Four::Zero(), votes = Four::Zero(), suspicion = Four::Zero();
+    const Four lane = {0.0f, 1.0f, 2.0f, 3.0f};
+    Four feature_weight = none, log_odds = none, votes = none, suspicion = none;
     // Runs first, sums later: compilers do not inline a visitor of this size, and then keep its sums in memory.
     std::array<Run, kMostRuns> runs;
     std::size_t count = 0;
@@ -87,22 +84,23 @@ class RememberedPoints {
       const Run run = runs[k];
       auto left = static_cast<float>(static_cast<int>(run.last - run.first));
       for (std::size_t rank = run.first; rank < run.last; rank += 4, left -= 4.0f) {
-        const Four taken = (left - lane).max(0.0f).min(1.0f);
         const Four off_x = four(x_, rank) - pixel.x(), off_y = four(y_, rank) - pixel.y();
         const Four squared = off_x * off_x + off_y * off_y;
-        const Four other = (has_depth - four(has_depth_, rank)).abs(), alike = 1.0f - other;
-        const Four beyond = (depth_m - four(depth_m_, rank)).abs() - tolerance_m;
-        const Four same = (1.0f - beyond * kSteep).max(other).min(taken);
-        const Four vote = same * ((1.0f - squared * per_reach).max(0.0f) * alike.max(kVoteOfOtherKind));
+        const Four off_m = depth_m - four(depth_m_, rank);
+        const auto alike = four(has_depth_, rank) == has_depth;
+        const auto counts = (lane < left) & (~alike | ((off_m <= tolerance_m) & (off_m >= -tolerance_m)));
+        const Four vote =
+            where(counts, larger(1.0f - squared * per_reach, none) * where(alike, all, kVoteOfOtherKind * all), none);
         votes += vote;
         suspicion += vote * four(suspicion_, rank);
-        const Four near = (1.0f - squared * per_feature).max(0.0f);
-        const Four weight = same * (near * near * four(is_feature_, rank) * alike.max(kOtherKind));
+        const Four near = larger(1.0f - squared * per_feature, none);
+        const Four kind = where(alike, all, kOtherKind * all);
+        const Four weight = where(counts, near * near * four(is_feature_, rank) * kind, none);
         feature_weight += weight;
         log_odds += weight * four(log_odds_, rank);
       }
     }
-    return {feature_weight.sum(), log_odds.sum(), votes.sum(), suspicion.sum()};
+    return {sum_of(feature_weight), sum_of(log_odds), sum_of(votes), sum_of(suspicion)};
   }
 
  private:
@@ -113,9 +111,7 @@ class RememberedPoints {
   // A circle touches 2 · 2 + 1 rows of cells, and one more by rounding.
   static constexpr std::size_t kMostRuns = 2 * static_cast<std::size_t>(kCellsPerReach) + 2;
 
-  static Eigen::Map<const Eigen::Array4f> four(span<float> values, std::size_t first) {
-    return Eigen::Map<const Eigen::Array4f>(&values[first]);
-  }
+  static FloatLanes four(span<float> values, std::size_t first) noexcept { return float_lanes(&values[first]); }
   std::size_t padded() const noexcept { return grid_.size() + 3; }  // four are read from the last
 
   NeighbourWeights weights_;

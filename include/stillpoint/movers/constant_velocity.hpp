@@ -31,6 +31,9 @@ class ConstantVelocity {
   /// Nothing is measured: what moved comes to rest some time.
   void fade(double factor) { velocity_ *= factor; }
 
+  /// Something else knows better; the uncertainty stays.
+  void set_velocity(const Vector3d& velocity) { velocity_ = velocity; }
+
   /// @param noise  covariance of the measured velocity; one that is not positive definite is no measurement
   void correct(const Vector3d& measured, const Matrix3d& noise) {
     const Cholesky<3> innovation(covariance_ + noise);

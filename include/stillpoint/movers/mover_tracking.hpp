@@ -26,6 +26,7 @@
 #include "stillpoint/movers/mover_report.hpp"
 #include "stillpoint/movers/moving_features.hpp"
 #include "stillpoint/movers/object_association.hpp"
+#include "stillpoint/movers/object_identity.hpp"
 #include "stillpoint/movers/object_update.hpp"
 #include "stillpoint/movers/predicted_points.hpp"
 #include "stillpoint/movers/tracked_object.hpp"
@@ -47,12 +48,14 @@ class MoverTracking {
     double pixel_sigma = 0.5;         ///< of a match, pixels
   };
   Options options;
+  bool is_on = true;  ///< off: objects are forgotten, and nothing is spent; may change between frames. No option
 
   /// @param motion  of the camera, in metres
   /// @param result  empty, with an entry for each of the host's features
   template <class Camera>
   void track(const FrameView& frame, const Observations& observations, const Motion& motion, const Camera& camera,
              span<const Label> labels, Movers& result, Workspace& workspace) {
+    if (!is_on) return reset();
     const Workspace::Scope scope(workspace);
     const Matches& matches = observations.matches;
     objects_.reserve(kMostObjects);  // with the first frame, not with the first that moves
@@ -71,8 +74,8 @@ class MoverTracking {
     ObjectAssociation::merge(objects_, features.object_of);
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       ObjectUpdate::run(objects_[o], static_cast<std::int32_t>(o), features, options.fewest_features, workspace);
-      confirm(objects_[o]);
     }
+    confirm(features.object_of, frame.timestamp_s);
     forget(features.object_of, frame.timestamp_s);
     MoverReport::write(objects_, features, observations.regions, result, workspace);
   }
@@ -140,26 +143,44 @@ class MoverTracking {
     objects_.emplace_back();
     TrackedObject& object = objects_.back();
     object.mover.centroid = group.centroid;
+    object.size_m.setZero();
     object.mover.first_seen_s = object.mover.last_seen_s = timestamp_s;
     object.linear.correct(group.velocity, kSigma_m_s * kSigma_m_s * Matrix3d::Identity());
     return static_cast<std::int32_t>(objects_.size() - 1);
   }
 
-  /// An object is reported when its way is more than noise: the more features, the shorter; slow ones after three times
-  /// that way, since the errors that many features share look like slow motion.
-  void confirm(TrackedObject& object) {
+  /// Reports new objects, the largest first. One that proves to be an object that is known gets no identifier.
+  void confirm(span<std::int32_t> object_of, double timestamp_s) {
+    while (true) {
+      std::size_t next = objects_.size();
+      for (std::size_t o = 0; o < objects_.size(); ++o)
+        if (moves(objects_[o]) && !ObjectIdentity::may_be_limb(objects_, o, timestamp_s) &&
+            (next == objects_.size() || objects_[o].members > objects_[next].members))
+          next = o;
+      if (next == objects_.size()) return;
+      const std::int32_t known = ObjectIdentity::known(objects_, next, timestamp_s);
+      if (known != kNone) {
+        ObjectIdentity::unite(objects_, static_cast<std::size_t>(known), next, object_of);
+      } else {
+        objects_[next].is_confirmed = true;
+        objects_[next].mover.id = ++last_id_;
+      }
+    }
+  }
+
+  /// Is the way of an object that is not reported yet more than noise? The more features, the shorter; slow ones must
+  /// go three times as far, since the errors that many features share look like slow motion.
+  bool moves(const TrackedObject& object) const {
     constexpr std::size_t kFewest = 12;
     constexpr int kFewestFrames = 2;
     if (object.is_confirmed || !object.is_seen || object.members < kFewest || object.seen_frames < kFewestFrames)
-      return;
+      return false;
     const double by_members = std::clamp(std::sqrt(20.0 / static_cast<double>(object.members)), 0.4, 1.0);
     const double by_speed = object.mean_speed() > ObjectAssociation::kSlow_m_s ? 1.0 : 3.0;
-    if (!(object.path.norm() > options.least_path_m * by_members * by_speed)) return;
+    if (!(object.path.norm() > options.least_path_m * by_members * by_speed)) return false;
     const Cholesky<3> factors(object.path_covariance);
     const double sigmas_sq = object.path.dot(factors.solve(object.path));
-    if (!(sigmas_sq > options.least_path_sigmas * options.least_path_sigmas)) return;
-    object.is_confirmed = true;
-    object.mover.id = ++last_id_;
+    return sigmas_sq > options.least_path_sigmas * options.least_path_sigmas;
   }
 
   void forget(span<std::int32_t> object_of, double timestamp_s) {

@@ -17,6 +17,7 @@
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/movers/appearance.hpp"
 #include "stillpoint/movers/motion_groups.hpp"
+#include "stillpoint/movers/object_identity.hpp"
 #include "stillpoint/movers/tracked_object.hpp"
 
 namespace stillpoint {
@@ -76,18 +77,14 @@ class ObjectAssociation {
   /// The object that is not seen and is nearest in place, motion and appearance.
   static std::int32_t seen_again(const LooseGroup& group, double timestamp_s, const std::vector<TrackedObject>& objects,
                                  span<const std::uint8_t> is_seen) {
-    constexpr double kNear_m = 0.4, kNearPerSecond = 0.8, kSameMotion_m_s = 0.8, kAlike = 0.7, kMostCost = 1.6;
     std::int32_t best = kNone;
-    double least = kMostCost;
+    double least = ObjectIdentity::kMostMisfit;
     for (std::size_t o = 0; o < is_seen.size(); ++o) {
       if (is_seen[o] != 0) continue;
-      const TrackedObject& object = objects[o];
-      const double unseen_s = timestamp_s - object.mover.last_seen_s;
-      const double place = (group.centroid - object.mover.centroid).norm() / (kNear_m + kNearPerSecond * unseen_s);
-      const double motion = (group.velocity - object.linear.velocity()).norm() / kSameMotion_m_s;
-      const double look = static_cast<double>(group.appearance.distance(object.appearance)) / kAlike;
-      const double cost = place * place + motion * motion + look * look;
-      if (!(place < 1.0) || !(cost < least)) continue;
+      const double unseen_s = timestamp_s - objects[o].mover.last_seen_s;
+      const double cost =
+          ObjectIdentity::misfit_of_lost(group.centroid, group.velocity, group.appearance, objects[o], unseen_s);
+      if (!(cost < least)) continue;
       least = cost;
       best = static_cast<std::int32_t>(o);
     }

@@ -5,6 +5,8 @@
 // How did one object move?   Its points in two frames → a rigid motion, or a translation where they do not determine a
 // rotation.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -110,8 +112,51 @@ class ObjectMotionEstimator {
     return motion;
   }
 
+  /// How fast the parts of an object move against each other: mean square of what is left of their velocity across the
+  /// ray after `moved`, less what noise leaves, (m/s)². The parts are cells of the box around it: limbs swing together,
+  /// so that the mean of a part shows what no single pair does. Nothing where no part has enough pairs.
+  static std::optional<double> bending_sq(span<const WhitenedPair> pairs, const Pose& moved, double elapsed_s) {
+    constexpr std::size_t kColumns = 2, kRows = 4;
+    constexpr double kFewest = 5, kCorrelation = 1.5, kOutlier_sq = 25.0;
+    struct Part {
+      double count = 0, noise = 0, x = 0, y = 0;  ///< sums of variances and of offsets across the ray
+    };
+    std::array<Part, kColumns * kRows> parts;
+    if (pairs.empty()) return std::nullopt;
+    Vector3d low = pairs[0].current, high = low;
+    for (const WhitenedPair& pair : pairs) {
+      low = low.cwiseMin(pair.current);
+      high = high.cwiseMax(pair.current);
+    }
+    for (const WhitenedPair& pair : pairs) {
+      if (!(squared_distance(pair, moved) <= kOutlier_sq)) continue;
+      Part& part = parts[cell(pair.current.x(), low.x(), high.x(), kColumns) +
+                         kColumns * cell(pair.current.y(), low.y(), high.y(), kRows)];
+      const Vector3d offset = pair.current - moved * pair.reference;
+      part.x += offset.x() - pair.u * offset.z();
+      part.y += offset.y() - pair.v * offset.z();
+      part.noise += 1.0 / (pair.per_x * pair.per_x) + 1.0 / (pair.per_y * pair.per_y);
+      part.count += 1.0;
+    }
+    double sum = 0, count = 0;
+    for (const Part& part : parts) {
+      if (!(part.count >= kFewest)) continue;
+      // count · (squared mean - its variance)
+      sum += (part.x * part.x + part.y * part.y - kCorrelation * part.noise) / part.count;
+      count += part.count;
+    }
+    if (!(count > 0)) return std::nullopt;
+    return sum / (count * elapsed_s * elapsed_s);
+  }
+
  private:
   static constexpr int kSteps = 4;
+
+  /// Which of `cells` equal parts of the range from `low` to `high` a value is in.
+  static std::size_t cell(double value, double low, double high, std::size_t cells) {
+    const double share = high > low ? (value - low) / (high - low) : 0.0;
+    return std::min(cells - 1, static_cast<std::size_t>(share * static_cast<double>(cells)));
+  }
 
   static double inlier_share(span<const WhitenedPair> pairs, const Pose& moved) {
     std::size_t inliers = 0;

@@ -4,6 +4,7 @@
 
 // What an object did since the last frame: its motion, its points, its state.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -46,8 +47,7 @@ class ObjectUpdate {
     }
     object.is_seen = members >= fewest_features;
     if (!object.is_seen) {
-      object.mover.state = MoverState::lost;
-      object.linear.fade(std::exp(-features.elapsed_s() / kFade_s));
+      lose(object, features.frame.timestamp_s, features.elapsed_s());
       return;
     }
     ++object.seen_frames;
@@ -56,17 +56,35 @@ class ObjectUpdate {
     object.appearance.blend(appearance, kAppearanceShare);
     measure(object, pairs.first(steps), features.current_from_reference, features.elapsed_s(), workspace);
     refresh_points(object, index, features, dynamic);
+    object.size_m = object.mover.extent_m.cwiseMax(object.size_m * std::exp(-features.elapsed_s() / kSize_s));
     settle(object, features.elapsed_s());
   }
 
  private:
-  static constexpr double kFade_s = 1.0;          // in which the velocity of what is not seen fades
+  static constexpr double kKeeps_s = 1.0;         // for so long what is not seen keeps its velocity, …
+  static constexpr double kFade_s = 1.0;          // … which then fades
+  static constexpr double kSize_s = 2.0;          // for which the size of what is seen only in part is remembered
   static constexpr double kStands_m_s = 0.06;     // slower is standing, …
   static constexpr double kParkedAfter_s = 0.25;  // … after so long
   static constexpr double kCorrelation = 4.0;     // neighbouring points share errors: covariances are too small by this
   static constexpr double kRigid = 0.82;          // mean share of points in one rigid motion from which on it is one
 
   static double share_of(double elapsed_s, double memory_s) { return 1.0 - std::exp(-elapsed_s / memory_s); }
+
+  /// Of a mean over `kMean_s` that is the plain mean as long as there are few frames.
+  static double mean_share(const TrackedObject& object, double elapsed_s) {
+    return std::max(share_of(elapsed_s, kMean_s), 1.0 / (1.0 + object.seen_frames));
+  }
+
+  /// The last bit of an object that is seen beside what covers it is measured badly: it goes on as it went on average,
+  /// unless it has just started or stopped.
+  static void lose(TrackedObject& object, double timestamp_s, double elapsed_s) {
+    constexpr double kSteady_m_s = 0.3;
+    const bool is_steady = (object.linear.velocity() - object.mean_velocity).norm() < kSteady_m_s;
+    if (object.mover.state != MoverState::lost && is_steady) object.linear.set_velocity(object.mean_velocity);
+    if (timestamp_s - object.mover.last_seen_s > kKeeps_s) object.linear.fade(std::exp(-elapsed_s / kFade_s));
+    object.mover.state = MoverState::lost;
+  }
 
   static void measure(TrackedObject& object, span<const WhitenedPair> pairs, const Pose& camera_motion,
                       double elapsed_s, Workspace& workspace) {
@@ -75,12 +93,18 @@ class ObjectUpdate {
     const std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
     const double inlier_share = turned ? turned->inlier_share : 0.0;
     object.rigid_share += share_of(elapsed_s, kMean_s) * (inlier_share - object.rigid_share);
-    if (turned) observe_turn(object, *turned, elapsed_s);
-    const bool is_rigid = turned && object.rigid_share > kRigid;
-    const Pose& moved = is_rigid && object.turns ? turned->moved : shifted->moved;
+    object.fit_share += mean_share(object, elapsed_s) * (inlier_share - object.fit_share);
+    if (turned) {
+      observe_turn(object, *turned, elapsed_s);
+      observe_bending(object, pairs, shifted->moved, turned->moved, elapsed_s);
+    }
+    const bool is_rigid = turned && object.fit_share > kRigid && !object.bends();
+    object.turns = object.turns && is_rigid;
+    object.surely_turns = object.surely_turns && is_rigid && object.rigid_share > kRigid;
+    const Pose& moved = object.surely_turns ? turned->moved : shifted->moved;
     Mover& mover = object.mover;
     mover.has_rotation = is_rigid;
-    mover.current_from_reference = orthonormalized(moved * camera_motion);
+    mover.current_from_reference = orthonormalized((object.turns ? turned->moved : shifted->moved) * camera_motion);
     mover.covariance = kCorrelation * (is_rigid ? turned->covariance : shifted->covariance);
 
     const Vector3d step = mover.centroid - inverted(moved) * mover.centroid, velocity = step / elapsed_s;
@@ -93,18 +117,32 @@ class ObjectUpdate {
     object.path_covariance += covariance;
   }
 
-  /// A turn that noise explains is taken for none: integrated over a second, it would be degrees.
+  /// A turn that noise explains is taken for none: integrated over a second, it would be degrees. Features are expected
+  /// to turn with the object only where it is more certain still.
   static void observe_turn(TrackedObject& object, const ObjectMotion& turned, double elapsed_s) {
-    constexpr double kTurns_sq = 25.0, kNoLonger_sq = 9.0;  // squared standard deviations
+    constexpr double kTurns_sq = 9.0, kNoLonger_sq = 5.0;  // squared standard deviations
+    constexpr double kSurely_sq = 25.0, kNoLongerSurely_sq = 9.0;
     const Vector3d turn = vector_from_rotation(turned.moved.linear()) / elapsed_s;
     const Matrix3d covariance = kCorrelation / (elapsed_s * elapsed_s) * turned.covariance.topLeftCorner<3, 3>();
     object.angular.correct(turn, covariance);
-    const double share = share_of(elapsed_s, kMean_s);
+    const double share = mean_share(object, elapsed_s);
     object.mean_turn += share * (turn - object.mean_turn);
     object.mean_turn_covariance += share * (share * covariance - (2.0 - share) * object.mean_turn_covariance);
     const Cholesky<3> factors(object.mean_turn_covariance);
     const double sigmas_sq = object.mean_turn.dot(factors.solve(object.mean_turn));
     object.turns = sigmas_sq > (object.turns ? kNoLonger_sq : kTurns_sq);
+    object.surely_turns = sigmas_sq > (object.surely_turns ? kNoLongerSurely_sq : kSurely_sq);
+  }
+
+  /// Do its parts move against each other when the turn is taken out?
+  static void observe_bending(TrackedObject& object, span<const WhitenedPair> pairs, const Pose& shifted,
+                              const Pose& turned, double elapsed_s) {
+    constexpr double kMemory_s = 1.0;  // a step
+    const std::optional<double> left = ObjectMotionEstimator::bending_sq(pairs, turned, elapsed_s),
+                                turn = ObjectMotionEstimator::bending_sq(pairs, shifted, elapsed_s);
+    const double share = share_of(elapsed_s, kMemory_s);
+    if (left) object.bending_sq += share * (*left - object.bending_sq);
+    if (turn) object.bending_with_turn_sq += share * (*turn - object.bending_with_turn_sq);
   }
 
   /// The points of the dynamic members are the object's, and those that something nearer hides now. Where these are

@@ -56,20 +56,31 @@ struct TrackedObject {
   Matrix3d mean_turn_covariance = Matrix3d::Identity();
   Vector3d path = Vector3d::Zero();  ///< the way gone since it was seen first, metres
   Matrix3d path_covariance = Matrix3d::Zero();
+  Vector3d size_m = Vector3d::Zero();  ///< its extent as it is remembered: what stands still or is covered counts
   int seen_frames = 0;
-  std::size_t members = 0;    ///< features in the last frame in which it was seen
-  double slow_s = 0;          ///< for how long it has hardly moved
-  double rigid_share = 0.5;   ///< mean over time of the share of its points that move as one rigid body
-  bool turns = false;         ///< `mean_turn` is more than noise
-  bool is_confirmed = false;  ///< it is reported
-  bool is_seen = true;        ///< in the last frame
+  std::size_t members = 0;          ///< features in the last frame in which it was seen
+  double slow_s = 0;                ///< for how long it has hardly moved
+  double rigid_share = 0.5;         ///< mean over time of the share of its points that move as one rigid body
+  double fit_share = 0.5;           ///< the same, the plain mean as long as it has been seen in few frames
+  double bending_sq = 0;            ///< mean square of its parts' velocities against each other, less noise, (m/s)²
+  double bending_with_turn_sq = 0;  ///< the same before its turn is taken out
+  bool turns = false;               ///< `mean_turn` is more than noise
+  bool surely_turns = false;        ///< so much more that its features are expected to turn with it
+  bool is_confirmed = false;        ///< it is reported
+  bool is_seen = true;              ///< in the last frame
 
   double mean_speed() const { return mean_velocity.norm(); }
+
+  /// Its parts move against each other: limbs that swing look like a turn of the body.
+  bool bends() const {
+    constexpr double kLeast_m_s = 0.01, kShare = 0.15;
+    return bending_sq > std::max(kLeast_m_s * kLeast_m_s, kShare * bending_with_turn_sq);
+  }
 
   /// Of a point of the object, relative to the world: with its turn where that is known.
   Vector3d velocity_at(const Vector3d& point) const {
     Vector3d velocity = linear.velocity();
-    if (turns) velocity += angular.velocity().cross(point - mover.centroid);
+    if (surely_turns) velocity += angular.velocity().cross(point - mover.centroid);
     return velocity;
   }
 
@@ -82,7 +93,7 @@ struct TrackedObject {
   /// Its motion in the world within a time, in the current camera's axes, at constant velocity.
   Pose step(double elapsed_s) const {
     Pose step = Pose::Identity();
-    if (turns) step.linear() = rotation_from_vector(elapsed_s * angular.velocity());
+    if (surely_turns) step.linear() = rotation_from_vector(elapsed_s * angular.velocity());
     step.translation() = mover.centroid + elapsed_s * linear.velocity() - step.linear() * mover.centroid;
     return step;
   }

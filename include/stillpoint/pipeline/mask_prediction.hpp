@@ -12,6 +12,7 @@
 #include <limits>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -70,7 +71,7 @@ class MaskPrediction {
     if (seen_.empty() || !(ahead_s > 0) || !(ahead_s <= kLongestGap_s)) return;
     columns_ = (width + kCell_px - 1) / kCell_px;
     rows_ = (height + kCell_px - 1) / kCell_px;
-    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
+    refill(cells_, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     const ImageView image(nullptr, width, height, 0, PixelFormat::gray8);
     const Workspace::Scope scope(workspace);
     const auto reach_px = static_cast<float>(options.reach_px);
@@ -78,7 +79,7 @@ class MaskPrediction {
     const PixelGrid followed(pixel_, 2 * reach_px, workspace,
                              [&](std::size_t j) { return seen_[j].moves && seen_[j].followed; });
     for (std::size_t i = 0; i < seen_.size(); ++i)
-      if (seen_[i].moves && pixel_[i].allFinite())
+      if (seen_[i].moves && is_finite(pixel_[i]))
         mark(i, with_surface(i, around), static_cast<float>(ahead_s) * velocity_px(i, followed), depth, image);
     drop_marked(std::clamp(margin_px, 0, width + height), mask);
   }
@@ -121,7 +122,7 @@ class MaskPrediction {
       weight += near;
       sum += near * seen_[j].velocity_px;
     });
-    return weight > 0 ? Vector2f(sum / weight) : Vector2f::Zero();
+    return weight > 0 ? sum / weight : Vector2f::Zero();
   }
 
   /// Marks the cells in which feature `i` and its surface will be, a step from here.

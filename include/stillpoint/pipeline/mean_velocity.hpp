@@ -20,19 +20,16 @@ class MeanVelocity {
   /// @param elapsed_s  within which the camera moved so, positive
   void add(const Pose& current_from_reference, double elapsed_s) {
     const double share = known_ ? 1.0 - std::exp(-elapsed_s / kMemory_s) : 1.0;
-    angular_rad_s_ += share * (vector_from_rotation(current_from_reference.linear()) / elapsed_s - angular_rad_s_);
-    linear_m_s_ += share * (current_from_reference.translation() / elapsed_s - linear_m_s_);
-    known_ = angular_rad_s_.allFinite() && linear_m_s_.allFinite();
+    angular_rad_s_ += share * (vector_from_rotation(rotation_of(current_from_reference)) / elapsed_s - angular_rad_s_);
+    linear_m_s_ += share * (translation_of(current_from_reference) / elapsed_s - linear_m_s_);
+    known_ = is_finite(angular_rad_s_) && is_finite(linear_m_s_);
     if (!known_) forget();  // time stamps a rounding apart: what was known would not come back
   }
 
   /// current_from_reference after so long; nothing where nothing is known.
   std::optional<Pose> during(double elapsed_s) const {
     if (!known_) return std::nullopt;
-    Pose pose = Pose::Identity();
-    pose.linear() = rotation_from_vector(elapsed_s * angular_rad_s_);
-    pose.translation() = elapsed_s * linear_m_s_;
-    return pose;
+    return make_pose(rotation_from_vector(elapsed_s * angular_rad_s_), elapsed_s * linear_m_s_);
   }
 
   void forget() noexcept { *this = MeanVelocity(); }

@@ -11,6 +11,7 @@
 #include <limits>
 #include <vector>
 
+#include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 
@@ -38,7 +39,7 @@ struct PooledDepth {
     height = static_cast<int>(static_cast<float>(frame.gray.height) / block_px);
     timestamp_s = frame.timestamp_s;
     filter_from_camera = pose;
-    nearest_m.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
+    refill(nearest_m, static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
     const ImageView& depth = frame.depth.image;
     if (depth.empty()) return;
     const float across = static_cast<float>(depth.width) / static_cast<float>(width);

@@ -39,7 +39,7 @@ class UseCheck {
     if (!judged(status)) return;
     count_depths(depth_m);
     const bool is_metric = motion.metric && !frame.depth.empty();
-    motion_too_fast_.count(is_metric && motion.current_from_reference.translation().norm() > kFast_m);
+    motion_too_fast_.count(is_metric && translation_of(motion.current_from_reference).norm() > kFast_m);
   }
 
   /// The host says how the camera moved to the frame that was observed last.
@@ -47,8 +47,8 @@ class UseCheck {
   /// @param motion       of the filter, to that frame
   void compare(const Pose& host_motion, const Motion& motion) {
     if (!motion.usable() || !motion.metric) return;
-    const double host_m = host_motion.translation().norm();
-    const double filter_m = motion.current_from_reference.translation().norm();
+    const double host_m = translation_of(host_motion).norm();
+    const double filter_m = translation_of(motion.current_from_reference).norm();
     if (!(std::max(host_m, filter_m) > kLeastStep_m)) return;
     scale_differs_.count(host_m > kOtherScale * filter_m || filter_m > kOtherScale * host_m);
   }

@@ -55,14 +55,14 @@ class CarriedDetection {
   void correct(const ImageMotion& image, std::size_t fewest_features, Workspace& workspace) {
     if (!(image.elapsed_s > 0)) return;
     const auto elapsed_s = static_cast<float>(image.elapsed_s);
-    const Vector2f from = centre() - (predicted_ ? step_ : Vector2f(image_px_s_ * elapsed_s));
+    const Vector2f from = centre() - (predicted_ ? step_ : image_px_s_ * elapsed_s);
     Vector2f standing = Vector2f::Zero();
     if (image.knows_camera()) standing = image.standing_step(from, depth_m());
     Step step{standing + own_px_s_ * elapsed_s, 1.0f};
     if (const std::optional<Step> measured = step_of_features(image, fewest_features, workspace)) {
       step = *measured;
       const Vector2f own = (step.displacement - standing) / elapsed_s;
-      if (image.knows_camera()) own_px_s_ = is_followed_ ? Vector2f(0.5f * (own_px_s_ + own)) : own;
+      if (image.knows_camera()) own_px_s_ = is_followed_ ? 0.5f * (own_px_s_ + own) : own;
       is_followed_ = true;
     } else if (!image.knows_camera()) {
       return;

@@ -72,8 +72,8 @@ class ImageMotion {
     k << focal.x(), 0, centre.x(), 0, focal.y(), centre.y(), 0, 0, 1;
     Matrix3d k_inverse;
     k_inverse << 1 / focal.x(), 0, -centre.x() / focal.x(), 0, 1 / focal.y(), -centre.y() / focal.y(), 0, 0, 1;
-    turn_ = k * motion.current_from_reference.linear() * k_inverse;
-    shift_ = k * motion.current_from_reference.translation();
+    turn_ = k * rotation_of(motion.current_from_reference) * k_inverse;
+    shift_ = k * translation_of(motion.current_from_reference);
     knows_camera_ = true;
   }
   bool knows_camera() const noexcept { return knows_camera_; }
@@ -85,7 +85,7 @@ class ImageMotion {
     const Vector3d ray(static_cast<double>(from.x()), static_cast<double>(from.y()), 1);
     const Vector3d there = turn_ * ray + shift_ / depth_m;
     if (!(there.z() > 0)) return Vector2f::Zero();
-    return (there.head<2>() / there.z()).cast<float>() - from;
+    return Vector2f(Vector2d(there.x() / there.z(), there.y() / there.z()).cast<float>()) - from;
   }
 
  private:

@@ -102,7 +102,7 @@ class ReprojectionScore {
   template <class Camera>
   static double squared_distance(const Vector3d& there, const Vector3d& spread, const Vector2f& found, double variance,
                                  const Camera& camera) {
-    const Vector2d error = camera.project(there) - found.cast<double>();
+    const Vector2d error = camera.project(there) - Vector2d(found.cast<double>());
     const Vector2d along(camera.fx() * (spread.x() - there.x() / there.z() * spread.z()) / there.z(),
                          camera.fy() * (spread.y() - there.y() / there.z() * spread.z()) / there.z());
     return ReprojectionInformation<double>(variance, along.x(), along.y()).squared_distance(error.x(), error.y());
@@ -118,7 +118,7 @@ class ReprojectionScore {
       const double sigma = place_sigma_px(observation.dissimilarity, frame.elapsed_s, motion);
       const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
       // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = (t − there) z.
-      const Vector3d spread = (frame.reference_from_current.translation() - there) *
+      const Vector3d spread = (translation_of(frame.reference_from_current) - there) *
                               (point.z() * matches.past_observations.inverse_depth_sigma[i]);
       const double squared = squared_distance(there, spread, observation.found, variance, camera);
       const double look = static_cast<double>(observation.dissimilarity) / kDissimilarityScale;

@@ -126,6 +126,17 @@ inline Scene crossing_people(const SceneOptions& options = {}) {
   return scene;
 }
 
+/// One person walks at 0.8 m/s behind a pillar 0.4 m wide and is covered for about half a second; the camera is
+/// stationary.
+inline Scene person_behind_pillar(const SceneOptions& options = {}) {
+  Scene scene = crossing_people(options);
+  scene.name = "person_behind_pillar";
+  scene.movers.erase(scene.movers.begin());
+  const TexturePtr texture = scene.furniture.back().textures[0];
+  scene.furniture.emplace_back(Shape::cuboid, Vector3d(0.2, 1.2, 0.1), Vector3d(0.05, -1.2, 0.9), texture);
+  return scene;
+}
+
 /// A box that no detector knows is slid over the floor and turned, with pauses.
 inline Scene pushed_box(const SceneOptions& options = {}) {
   Scene scene = detail::stage("pushed_box", options);

@@ -11,13 +11,16 @@
 #include <vector>
 
 #include "stillpoint/motion/rigid/support_motion.hpp"
+#include "stillpoint/movers/mover_tracking.hpp"
 #include "stillpoint/options/options_file.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 #include "stillpoint/stillpoint.hpp"
 
 namespace stillpoint::compiled_filter_test {
 
 static_assert(std::is_same_v<FrameFilter<>, FrameFilter<CompiledPolicies>>, "the target says STILLPOINT_COMPILED");
 static_assert(std::is_nothrow_move_constructible_v<FrameFilter<>>);
+static_assert(std::is_same_v<WithMovers<>, WithMovers<CompiledPolicies>>);
 
 Camera camera() { return Camera(200, 200, 159.5, 119.5, 320, 240); }
 
@@ -108,6 +111,24 @@ TEST(CompiledFilter, OptionsAreThoseOfDefaultPolicies) {
   FrameFilter<DefaultPolicies> of_headers(camera());
   EXPECT_EQ(options_as_yaml(filter), options_as_yaml(of_headers));
   EXPECT_NE(options_as_yaml(filter).find("mask_prediction:"), std::string::npos);  // the last stage
+}
+
+TEST(CompiledFilter, HasMoversWhereTheyAreAskedFor) {
+  FrameFilter<> without(camera());
+  FrameFilter<WithMovers<>> made(camera());
+  FrameFilter<WithMovers<>> with = std::move(made);
+  with.movers.options.least_path_m = 0.01;
+  const FrameResult &verdicts = run(without), &result = run(with);
+  EXPECT_TRUE(verdicts.movers().empty());
+  ASSERT_EQ(result.movers().size(), 1u);
+  EXPECT_GT(result.movers()[0].velocity.x(), 0.5);  // 6 pixels a frame at 1.5 m: 1.35 m/s to the right
+  EXPECT_EQ(options_as_yaml(without).find("movers:"), std::string::npos);
+  EXPECT_NE(options_as_yaml(with).find("movers:\n  fewest_features: 8\n  least_path_m: 0.01"), std::string::npos);
+  for (std::size_t i = 0; i < result.size(); ++i) EXPECT_EQ(result.keep()[i], verdicts.keep()[i]);
+
+  with.movers.is_on = false;
+  const Scene next(kFrames);
+  EXPECT_TRUE(with.filter_frame(next.frame(), next.keypoints).movers().empty());
 }
 
 TEST(CompiledFilter, ResetBeginsAnew) {

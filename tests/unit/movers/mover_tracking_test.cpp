@@ -33,7 +33,7 @@ static_assert(is_movers<NoMovers, Camera>::value);
 static_assert(!is_movers<Camera, Camera>::value);
 static_assert(std::is_same_v<MoversOf<DefaultPolicies>, NoMovers>);
 static_assert(std::is_same_v<MoversOf<WithMovers<>>, MoverTracking>);
-static_assert(fit_together(NeedsOf<WithMovers<>>{}));
+static_assert(fit_together(NeedsOf<WithMovers<DefaultPolicies>>{}));
 static_assert(!fit_together(NeedsOf<WithMovers<MonocularPolicies>>{}), "one camera without depth knows no metres");
 
 synthetic::SceneOptions vga(int frames) {
@@ -144,46 +144,38 @@ TEST(MoverTracking, TwoPeopleWhoCrossKeepTheirIdentifiers) {
     EXPECT_EQ(figures.switches, 0u) << "person " << person;
     EXPECT_GE(*figures.found_share(), 0.85) << "person " << person;
     EXPECT_LE(median(figures.speed_m_s), 0.1) << "person " << person;
+    if (person == 0) {
+      EXPECT_LE(median(figures.carried_m), 0.05) << "limbs that swing are no turn of the body";
+    }
   }
 }
 
-/// A pillar of 0.45 m, beside which somebody walks at 0.8 m/s: about half a second behind it.
-synthetic::Scene walker_behind_a_pillar(const synthetic::SceneOptions& options) {
-  synthetic::Scene scene = synthetic::crossing_people(options);
-  scene.movers.erase(scene.movers.begin());
-  const synthetic::TexturePtr texture = scene.furniture.back().textures[0];
-  scene.furniture.emplace_back(synthetic::Shape::cuboid, Vector3d(0.2, 1.2, 0.1), Vector3d(0.05, -1.2, 0.9), texture);
-  return scene;
-}
-
-TEST(MoverTracking, WhoIsCoveredForHalfASecondIsFoundAgain) {
-  SceneRun run(walker_behind_a_pillar(small(70)));
-  const MoverFigures figures = run.score.figures(0);
-  EXPECT_LE(figures.frames, 65u) << "he is covered for some frames";
-  EXPECT_GE(figures.found, 20u);
-  run.repeat();
-}
-
-// Not reached: seeds 1 to 4 have 4, 0, 0, 0 switches at this size and 4, 2, 2, 2 at 640 x 480, another compiler's
-// rounding changes them. Half of him beside the pillar is taken for another object.
-TEST(MoverTracking, DISABLED_WhoIsCoveredForHalfASecondKeepsHisIdentifier) {
+TEST(MoverTracking, WhoIsCoveredForHalfASecondKeepsHisIdentifier) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     synthetic::SceneOptions options = small(70);
     options.seed = seed;
-    const SceneRun run(walker_behind_a_pillar(options));
-    EXPECT_EQ(run.score.figures(0).switches, 0u) << "seed " << seed;
+    SceneRun run(synthetic::person_behind_pillar(options));
+    const MoverFigures figures = run.score.figures(0);
+    EXPECT_LE(figures.frames, 65u) << "he is covered for some frames";
+    EXPECT_GE(figures.found, 20u) << "seed " << seed;
+    EXPECT_EQ(figures.switches, 0u) << "seed " << seed;
+    if (seed == 1) run.repeat();
   }
 }
 
 TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASecond) {
-  const SceneRun run(synthetic::pushed_box());  // at half the size, noise hides so slow a turn
-  const MoverFigures figures = run.score.figures(0);
-  EXPECT_EQ(figures.switches, 0u);
-  EXPECT_GE(*figures.found_share(), 0.8);
-  ASSERT_GE(figures.carried_m.size(), 10u);
-  EXPECT_LE(median(figures.carried_deg), 3.0);
-  EXPECT_LE(median(figures.carried_m), 0.05);
-  EXPECT_LE(median(figures.speed_m_s), 0.1);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    synthetic::SceneOptions options = small(75);  // the first slide with its turn
+    options.seed = seed;
+    const SceneRun run(synthetic::pushed_box(options));
+    const MoverFigures figures = run.score.figures(0);
+    EXPECT_EQ(figures.switches, 0u) << "seed " << seed;
+    EXPECT_GE(*figures.found_share(), 0.8) << "seed " << seed;
+    ASSERT_GE(figures.carried_m.size(), 10u) << "seed " << seed;
+    EXPECT_LE(median(figures.carried_deg), 3.0) << "seed " << seed;
+    EXPECT_LE(median(figures.carried_m), 0.05) << "seed " << seed;
+    EXPECT_LE(median(figures.speed_m_s), 0.1) << "seed " << seed;
+  }
 }
 
 TEST(MoverTracking, NothingMovesInAStaticRoom) {

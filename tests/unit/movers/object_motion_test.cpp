@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -69,6 +70,41 @@ TEST(ObjectMotion, TranslationKnowsHowCertainItIs) {
   const double across_sq = 2 * 0.25 * 4.0 / (525.0 * 525.0) / count, along_sq = 2 * 25e-6 / count;
   EXPECT_NEAR(motion->covariance(3, 3), across_sq, 1e-3 * across_sq);
   EXPECT_NEAR(motion->covariance(5, 5), along_sq, 1e-3 * along_sq);
+}
+
+constexpr double kElapsed_s = 1 / 30.0;
+
+// An upper half that goes 5 mm to the right and a lower one that goes 5 mm to the left: 0.15 m/s each. The 10 pairs of
+// a part know it to 1.5 · 2 · (√2 · 0.3 px · 2 m / 525 px)² / 10 = 0.8e-6 m², which is taken off 25e-6 m².
+TEST(ObjectMotion, PartsThatMoveAgainstEachOtherBend) {
+  std::vector<WhitenedPair> pairs;
+  for (const double side : {1.0, -1.0})
+    for (int k = 0; k < 40; ++k) {
+      const Vector3d point(0.01 * (k % 20), side * (0.1 + 0.005 * k), 2.0);
+      pairs.emplace_back(point, kDepthSigma_m, point + Vector3d(side * 0.005, 0, 0), kDepthSigma_m, 0.3, kCamera);
+    }
+  const std::optional<double> bending_sq = ObjectMotionEstimator::bending_sq(pairs, Pose::Identity(), kElapsed_s);
+  ASSERT_TRUE(bending_sq);
+  EXPECT_NEAR(*bending_sq, (25e-6 - 0.8e-6) * 900, 0.3e-6 * 900);
+}
+
+TEST(ObjectMotion, WhatTurnsRigidlyDoesNotBendOnceItsTurnIsTakenOut) {
+  Random random(11);
+  const Pose moved = shift(0.01, 0, 0.01) * turn_about({0.3, 0, 1.5}, 0.05);
+  std::vector<WhitenedPair> pairs = pairs_of({0.3, 0, 1.5}, moved, 80, random);
+  const auto noise = [&](double sigma) { return random.uniform(-1.7, 1.7) * sigma; };
+  for (WhitenedPair& pair : pairs) pair.current += Vector3d(noise(0.001), noise(0.001), noise(kDepthSigma_m));
+  const std::optional<ObjectMotion> rigid = ObjectMotionEstimator::rigid(pairs, Pose::Identity());
+  ASSERT_TRUE(rigid);
+  EXPECT_LT(*ObjectMotionEstimator::bending_sq(pairs, rigid->moved, kElapsed_s), 1e-4);
+  EXPECT_GT(*ObjectMotionEstimator::bending_sq(pairs, Pose::Identity(), kElapsed_s), 0.01);
+}
+
+TEST(ObjectMotion, NobodyKnowsWhetherFewPairsBend) {
+  Random random(12);
+  EXPECT_FALSE(ObjectMotionEstimator::bending_sq({}, Pose::Identity(), kElapsed_s));
+  const std::vector<WhitenedPair> pairs = pairs_of({0, 0, 2}, Pose::Identity(), 4, random);
+  EXPECT_FALSE(ObjectMotionEstimator::bending_sq(pairs, Pose::Identity(), kElapsed_s));
 }
 
 TEST(ObjectMotion, RigidFindsATurn) {

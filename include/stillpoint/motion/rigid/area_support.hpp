@@ -24,7 +24,9 @@ inline span<const std::uint8_t> area_support(const Matches& matches, float cell_
   if (is_spread) return speaks;
   Vector2f largest = Vector2f::Zero();
   for (std::size_t i = 0; i < matches.size(); ++i)
-    if (matches.matched(i)) largest = largest.cwiseMax(matches.current.pixel[i]);
+    if (matches.matched(i))
+      largest = {std::max(largest.x(), matches.current.pixel[i].x()),
+                 std::max(largest.y(), matches.current.pixel[i].y())};
   const auto cell_of = [cell_px](float coordinate_px) { return static_cast<std::size_t>(coordinate_px / cell_px); };
   const std::size_t columns = cell_of(largest.x()) + 1, rows = cell_of(largest.y()) + 1;
   constexpr std::uint32_t kNobody = 0;

@@ -35,16 +35,14 @@ struct Inertia {
   /// @return                        the likelier motion in between
   Pose fuse(const Pose& current_from_reference, Matrix6d& information, const MotionPrior& prior) const {
     const Pose off = *prior.predicted * inverted(current_from_reference);
-    Vector6d expected;  // after the motion that was found
-    expected << vector_from_rotation(off.linear()), off.translation();
+    const Vector6d expected =
+        joined(vector_from_rotation(rotation_of(off)), translation_of(off));  // after what was found
     Matrix6d velocity = information_of(prior.elapsed_s);
-    if (!velocity.allFinite()) return current_from_reference;  // no time has passed
+    if (!is_finite(velocity)) return current_from_reference;  // no time has passed
     velocity *= weight(expected, velocity, information);
     information += velocity;
     const Vector6d step = Cholesky<6>(information).solve(velocity * expected);
-    Pose fused = Pose::Identity();
-    fused.linear() = rotation_from_vector(step.head<3>());
-    fused.translation() = step.tail<3>();
+    const Pose fused = make_pose(rotation_from_vector(rotation_part(step)), translation_part(step));
     return orthonormalized(fused * current_from_reference);
   }
 
@@ -63,10 +61,12 @@ struct Inertia {
   Matrix6d information_of(double elapsed_s) const {
     const double angle = angular_acceleration_rad_s2 * elapsed_s * elapsed_s;
     const double length_m = acceleration_m_s2 * elapsed_s * elapsed_s;
-    Vector6d diagonal;
-    diagonal << Vector3d::Constant(kCorrelated / (angle * angle)),
-        Vector3d::Constant(kCorrelated / (length_m * length_m));
-    return diagonal.asDiagonal();
+    Matrix6d information = Matrix6d::Zero();
+    for (int i = 0; i < 3; ++i) {
+      information(i, i) = kCorrelated / (angle * angle);
+      information(3 + i, 3 + i) = kCorrelated / (length_m * length_m);
+    }
+    return information;
   }
 };
 

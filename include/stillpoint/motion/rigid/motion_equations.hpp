@@ -8,7 +8,7 @@
 #include <iterator>
 
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/motion/lanes.hpp"
+#include "stillpoint/core/lanes.hpp"
 
 namespace stillpoint {
 
@@ -83,9 +83,14 @@ class MotionEquations {
 /// From x = (ω, v) of the current camera, p' = Exp(ω) p + v, to what it does to the points of an older one:
 /// there − R(ω × p) − R v with R p = there − t.
 inline Matrix6d motion_of_older_points(const Pose& reference_from_current) {
-  const Matrix3d rotation = reference_from_current.linear();
-  Matrix6d adjoint;
-  adjoint << rotation, Matrix3d::Zero(), skew(reference_from_current.translation()) * rotation, rotation;
+  const Matrix3d rotation = rotation_of(reference_from_current);
+  const Matrix3d lever = skew(translation_of(reference_from_current)) * rotation;
+  Matrix6d adjoint = Matrix6d::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      adjoint(i, j) = adjoint(3 + i, 3 + j) = rotation(i, j);
+      adjoint(3 + i, j) = lever(i, j);
+    }
   return adjoint;
 }
 

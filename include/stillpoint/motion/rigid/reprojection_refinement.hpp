@@ -11,9 +11,9 @@
 #include <type_traits>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/lanes.hpp"
 #include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
-#include "stillpoint/motion/lanes.hpp"
 #include "stillpoint/motion/rigid/motion_equations.hpp"
 #include "stillpoint/motion/rigid/reprojection_residual.hpp"
 
@@ -31,7 +31,7 @@ class Tukey {
   template <class Real>
   Real operator()(const Real& squared) const {
     const Real rest = 1.0 - squared * inverse_limit_;
-    return where(rest > 0.0, Real(rest * rest), lanes_of<Real>(0.0));
+    return where<Real>(rest > 0.0, rest * rest, lanes_of<Real>(0.0));
   }
 
  private:
@@ -73,7 +73,7 @@ class FrameEquations {
 
  private:
   static bool finite(double squared) noexcept { return squared < std::numeric_limits<double>::infinity(); }
-  static bool finite(const Lanes& squared) { return finite(squared(0)) && finite(squared(1)); }
+  static bool finite(const Lanes& squared) { return finite(squared[0]) && finite(squared[1]); }
 
   template <class Real, class... Points,
             std::enable_if_t<(std::is_same<Points, PointConstraint>::value && ...), int> = 0>
@@ -127,18 +127,17 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
       equations.add(detail::in_frame(points, frame));
       equations.add(detail::in_frame(planes, frame));
       const Matrix6d adjoint = motion_of_older_points(poses[frame]);
-      normal += adjoint.transpose() * equations.matrix() * adjoint;
-      gradient += adjoint.transpose() * equations.gradient();
+      const Matrix6d transposed = adjoint.transpose();
+      normal += transposed * equations.matrix() * adjoint;
+      gradient += transposed * equations.gradient();
     }
     // What nothing is known of stays: a thousandth of a constraint holds it.
     constexpr double kHold = 1e-6;
-    const Vector6d x = -Cholesky<6>(normal + kHold * Matrix6d::Identity()).solve(gradient);
+    const Vector6d x = -Cholesky<6>(held(normal, kHold)).solve(gradient);
     constexpr double kLongestStep = 0.5;  // radians, metres; more is no refinement
-    if (!(x.head<3>().norm() < kLongestStep) || !(x.tail<3>().norm() < kLongestStep)) return information;
-    Pose step = Pose::Identity();
-    step.linear() = rotation_from_vector(x.head<3>());
-    step.translation() = x.tail<3>();
-    const Pose back = step.inverse();
+    const Vector3d turn = rotation_part(x), shift = translation_part(x);
+    if (!(turn.norm() < kLongestStep) || !(shift.norm() < kLongestStep)) return information;
+    const Pose back = inverted(make_pose(rotation_from_vector(turn), shift));
     for (Pose& pose : poses) pose = orthonormalized(pose * back);
     information = normal;
     settled_at = x.dot(normal * x) < detail::kNegligibleStep ? cutoff : 0;

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/lanes.hpp"
 #include "stillpoint/core/reprojection_information.hpp"
-#include "stillpoint/motion/lanes.hpp"
 #include "stillpoint/motion/rigid/motion_equations.hpp"
 
 namespace stillpoint {
@@ -49,12 +49,11 @@ struct MovedPoint {
   /// @param points  as many as `Real` has lanes
   template <class... Points>
   explicit MovedPoint(const Pose& reference_from_current, const Points&... points) {
-    const auto& r = reference_from_current.linear();
-    const auto& t = reference_from_current.translation();
+    const Eigen::Matrix4d& m = reference_from_current.matrix();
     const Real px = lanes(points.x()...), py = lanes(points.y()...), pz = lanes(points.z()...);
-    x = r(0, 0) * px + r(0, 1) * py + r(0, 2) * pz + t.x();
-    y = r(1, 0) * px + r(1, 1) * py + r(1, 2) * pz + t.y();
-    z = r(2, 0) * px + r(2, 1) * py + r(2, 2) * pz + t.z();
+    x = m(0, 0) * px + m(0, 1) * py + m(0, 2) * pz + m(0, 3);
+    y = m(1, 0) * px + m(1, 1) * py + m(1, 2) * pz + m(1, 3);
+    z = m(2, 0) * px + m(2, 1) * py + m(2, 2) * pz + m(2, 3);
   }
 };
 
@@ -85,7 +84,7 @@ struct PointResidual {
     off_x = camera.fx() * x + camera.cx() - lanes(constraints.pixel.x()...);
     off_y = camera.fy() * y + camera.cy() - lanes(constraints.pixel.y()...);
     // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = −R p / ρ = (t − there) z.
-    const auto& t = reference_from_current.translation();
+    const Vector3d t = translation_of(reference_from_current);
     const Real spread = lanes((constraints.point.z() * constraints.inverse_depth_sigma)...) * inverse_z;
     const Real back_z = t.z() - there.z;
     const Real along_x = camera.fx() * spread * (t.x() - there.x - x * back_z);
@@ -96,12 +95,14 @@ struct PointResidual {
     xy = information.xy;
     yy = information.yy;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    squared_px = where(there.z > kNearest_m, information.squared_distance(off_x, off_y), lanes_of<Real>(kInfinity));
+    squared_px =
+        where<Real>(there.z > kNearest_m, information.squared_distance(off_x, off_y), lanes_of<Real>(kInfinity));
     depth_slope = lanes(constraints.depth_slope...);
     depth_error = (there.z - lanes(constraints.depth_m...)) * depth_slope;
     const Real depth_squared = depth_error * depth_error;
-    squared = squared_px + where(depth_squared < kDepthErrorLimit, depth_squared, lanes_of<Real>(kDepthErrorLimit));
-    depth_slope = where(depth_squared < kDepthErrorLimit, depth_slope, lanes_of<Real>(0.0));
+    squared =
+        squared_px + where<Real>(depth_squared < kDepthErrorLimit, depth_squared, lanes_of<Real>(kDepthErrorLimit));
+    depth_slope = where<Real>(depth_squared < kDepthErrorLimit, depth_slope, lanes_of<Real>(0.0));
   }
 
   /// By `there`: ∂pixel / ∂there has the rows fx (1, 0, −x) / z and fy (0, 1, −y) / z.

@@ -46,7 +46,7 @@ struct StationaryCamera {
     for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
       const Observation& observation = oldest->of_feature[i];
       if (observation.state != ObservationState::seen || !(observation.dissimilarity < 2.0f)) continue;
-      const double moved_px = (matches.current.undistorted[i] - observation.found.cast<double>()).norm();
+      const double moved_px = (matches.current.undistorted[i] - Vector2d(observation.found.cast<double>())).norm();
       census.count(moved_px < kRest_px, observations, i);
     }
     return census.empty() || stands(census, true);

@@ -92,7 +92,7 @@ struct SupportConstraints {
         // Depth noise points along the optical axis: the plane sees its share along the normal.
         const double sigma_m =
             depth_sigma_m(cell.depth_sigma_m, observation.depth_sigma_m) * std::abs(cell.normal.z()) + kDepthFloor_m;
-        plane.slope = frames[f].reference_from_current.linear() * cell.normal / sigma_m;
+        plane.slope = rotation_of(frames[f].reference_from_current) * cell.normal / sigma_m;
         plane.memoryless_weight = surface_weight;
         plane.weight = surface_weight * static_cast<double>(observations.remembered.surface_trust[s]);
         plane.frame = f;

@@ -70,7 +70,7 @@ class SupportMotion {
     const span<const OlderFrame> frames = matches.past_observations.frames();
     auto problem =
         problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), observations, camera, workspace);
-    const Pose expected = prior.current_from_reference ? prior.current_from_reference->inverse() : Pose::Identity();
+    const Pose expected = prior.current_from_reference ? inverted(*prior.current_from_reference) : Pose::Identity();
     Hypothesis past = refine(expected, problem, kFarCutoffs);
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
     motion.pixel_sigma = noise.pixel_sigma;
@@ -83,11 +83,11 @@ class SupportMotion {
     const bool knows_past =
         prior.current_from_reference.has_value();  // else it began with no motion, for want of better
     // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
-    const bool inverted =
+    const bool is_inverted =
         differ && knows_past &&
         problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
             past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
-    const Hypothesis& trusted = sampled.support > past.support && !inverted ? sampled : past;
+    const Hypothesis& trusted = sampled.support > past.support && !is_inverted ? sampled : past;
     motion.standing = standing.since_last_frame(observations, prior.standing) &&
                       nothing_creeps(points, features, matches, camera, workspace);
     const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
@@ -97,9 +97,9 @@ class SupportMotion {
         problem.point_support(chosen.reference_from_current) > kLeastSupport * problem.total_weight();
     if (!explained || !any_depth(matches)) return motion;
     motion.status = Status::ok;
-    if (inverted) motion.warnings = Warning::consensus_inverted;
+    if (is_inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
-    motion.current_from_reference = orthonormalized(chosen.reference_from_current.inverse());
+    motion.current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
     Matrix6d information = chosen.information;
     if (!motion.standing && inertia.applies(prior))
       motion.current_from_reference = inertia.fuse(motion.current_from_reference, information, prior);
@@ -127,10 +127,10 @@ class SupportMotion {
     trusted.support = problem.support(trusted.reference_from_current);
     const Hypothesis chosen = with_suspects(trusted, kNearCutoffs, problem);
     Matrix6d information = chosen.information;
-    const Pose step = chosen.reference_from_current.inverse() * frames[0].reference_from_current;
+    const Pose step = inverted(chosen.reference_from_current) * frames[0].reference_from_current;
     Pose refined = orthonormalized(step * motion.current_from_reference);
     if (inertia.applies(prior)) refined = inertia.fuse(refined, information, prior);
-    const Pose back = motion.current_from_reference * refined.inverse();  // the old current camera from the new one
+    const Pose back = motion.current_from_reference * inverted(refined);  // the old current camera from the new one
     motion.current_from_reference = refined;
     set_covariance(information, motion);
     for (OlderFrame& frame : frames)
@@ -283,7 +283,7 @@ class SupportMotion {
   static void set_covariance(const Matrix6d& information, Motion& motion) {
     constexpr double kHold = 1e-6;  // what nothing is known of gets kilometres
     motion.correlation = Inertia::kCorrelated;
-    motion.covariance = Inertia::kCorrelated * Cholesky<6>(information + kHold * Matrix6d::Identity()).inverse();
+    motion.covariance = Inertia::kCorrelated * Cholesky<6>(held(information, kHold)).inverse();
   }
 };
 

@@ -39,7 +39,7 @@ class SupportProblem {
         links_(links),
         camera_(camera),
         limit_(inlier_sigmas * inlier_sigmas) {
-    const Pose current_from_first = poses[0].inverse();
+    const Pose current_from_first = inverted(poses[0]);
     for (std::size_t f = 0; f < poses.size(); ++f) links_[f] = poses[f] * current_from_first;
   }
 
@@ -107,7 +107,7 @@ class SupportProblem {
       if (k + 1 < points_.size() && points_[k + 1].frame == point.frame) {
         const PointConstraint& next = points_[k + 1];
         const PointResidual<Lanes> both(poses_[point.frame], camera_, point, next);
-        sum += point.weight * share(both.squared(0)) + next.weight * share(both.squared(1));
+        sum += point.weight * share(both.squared[0]) + next.weight * share(both.squared[1]);
         left -= point.weight + next.weight;
         k += 2;
       } else {

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Is what is seen here an object that is known already?   By place, motion and appearance.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/movers/appearance.hpp"
+#include "stillpoint/movers/tracked_object.hpp"
+
+namespace stillpoint {
+
+/// Compares parts with objects. Distances in metres, speeds in m/s.
+class ObjectIdentity {
+ public:
+  static constexpr std::int32_t kNone = -1;
+  static constexpr double kMostMisfit = 1.6;
+
+  /// How badly a part fits a lost object: squared, in units of what is allowed; infinite where the place is wrong. The
+  /// object is where constant velocity has carried it, less and less certainly. What comes out beside whatever hid it
+  /// is a strip: it must lie in the object's extent, its own centroid says nothing.
+  /// @param unseen_s  for how long the object is not seen
+  static double misfit_of_lost(const Vector3d& centroid, const Vector3d& velocity, const Appearance& appearance,
+                               const TrackedObject& object, double unseen_s) {
+    constexpr double kNear_m = 0.25, kNearPerSecond = 0.6, kAlike = 0.7;
+    const double near_m = kNear_m + kNearPerSecond * unseen_s;
+    const Vector3d apart = (centroid - object.mover.centroid).cwiseAbs() - 0.5 * object.size_m;
+    const double place = apart.cwiseMax(0.0).norm() / near_m;
+    if (!(place < 1.0)) return std::numeric_limits<double>::infinity();
+    const double sigma_m_s = std::sqrt(object.linear.covariance().trace() / 3.0);  // grows while nothing is measured
+    const double motion = (velocity - object.linear.velocity()).norm() / (limbs_m_s(object) + sigma_m_s);
+    const double look = static_cast<double>(appearance.distance(object.appearance)) / kAlike;
+    return place * place + motion * motion + look * look;
+  }
+
+  /// Which reported object is an object that is about to be reported? A lost one that it fits, or one that it hangs on
+  /// and is a limb of; `kNone`: it is new.
+  static std::int32_t known(const std::vector<TrackedObject>& objects, std::size_t candidate, double timestamp_s) {
+    const TrackedObject& part = objects[candidate];
+    std::int32_t best = kNone;
+    double least = kMostMisfit;
+    for (std::size_t o = 0; o < objects.size(); ++o) {
+      const TrackedObject& object = objects[o];
+      if (o == candidate || !object.is_confirmed) continue;
+      const double unseen_s = timestamp_s - object.mover.last_seen_s;
+      const double misfit =
+          object.is_seen ? misfit_of_limb(part, object)
+                         : misfit_of_lost(part.mover.centroid, part.mean_velocity, part.appearance, object, unseen_s);
+      if (!(misfit < least)) continue;
+      least = misfit;
+      best = static_cast<std::int32_t>(o);
+    }
+    return best;
+  }
+
+  /// May it be a limb that swings faster than the body it hangs on? Nobody knows until it has been seen for a while.
+  static bool may_be_limb(const std::vector<TrackedObject>& objects, std::size_t candidate, double timestamp_s) {
+    constexpr double kStride_s = 0.5, kMoves_m_s = 0.1;
+    const TrackedObject& part = objects[candidate];
+    if (timestamp_s - part.mover.first_seen_s > kStride_s) return false;
+    return std::any_of(objects.begin(), objects.end(), [&](const TrackedObject& object) {
+      return &object != &part && object.is_confirmed && object.is_seen && object.mean_speed() > kMoves_m_s &&
+             is_small(part, object) && gap_m(part, object) < kLimb_m;
+    });
+  }
+
+  /// Two objects are one, under the identity of `known`; where it is lost or has fewer features, `part` says where it
+  /// is and how it moves.
+  static void unite(std::vector<TrackedObject>& objects, std::size_t known, std::size_t part,
+                    span<std::int32_t> object_of) {
+    TrackedObject &kept = objects[known], &other = objects[part];
+    if (!kept.is_seen || other.members > kept.members) {
+      std::swap(kept, other);
+      take_identity(other, kept);
+    }
+    if (other.is_seen)
+      for (const Vector3d& point : other.points) kept.points.add(point);
+    for (std::int32_t& of : object_of) {
+      if (of == static_cast<std::int32_t>(part)) of = static_cast<std::int32_t>(known);
+      if (of > static_cast<std::int32_t>(part)) --of;
+    }
+    objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(part));
+  }
+
+ private:
+  static constexpr double kLimb_m = 0.5;  // from a body to what is seen of its limbs
+
+  /// Legs stand, and swing at twice the speed of the body.
+  static double limbs_m_s(const TrackedObject& object) {
+    return 0.3 + 0.8 * std::max(object.mean_speed(), object.linear.velocity().norm());
+  }
+
+  /// How far the boxes around two objects, as large as they are remembered, are from each other.
+  static double gap_m(const TrackedObject& a, const TrackedObject& b) {
+    const Vector3d apart = (a.mover.centroid - b.mover.centroid).cwiseAbs() - 0.5 * (a.size_m + b.size_m);
+    return apart.cwiseMax(0.0).norm();
+  }
+
+  /// The same for what may be a part of an object that is seen: what is beside it must move with it, as limbs do.
+  static double misfit_of_limb(const TrackedObject& part, const TrackedObject& object) {
+    constexpr double kReach_m = 0.3;
+    const TrackedObject& larger = object.members >= part.members ? object : part;
+    const double motion = (part.mean_velocity - object.mean_velocity).norm() / limbs_m_s(larger);
+    const double reach_m = is_small(part, object) ? kLimb_m : kReach_m;
+    if (!(motion < 1.0) || !(gap_m(part, object) < reach_m)) return std::numeric_limits<double>::infinity();
+    return motion * motion;
+  }
+
+  /// By features, a limb has less than half of its body's.
+  static bool is_small(const TrackedObject& part, const TrackedObject& object) {
+    return 2 * part.members < object.members;
+  }
+
+  static void take_identity(const TrackedObject& known, TrackedObject& object) {
+    object.mover.id = known.mover.id;
+    object.mover.first_seen_s = known.mover.first_seen_s;
+    object.mover.class_index = known.mover.class_index;
+    object.mover.confidence = known.mover.confidence;
+    object.is_confirmed = known.is_confirmed;
+    Appearance appearance = known.appearance;
+    appearance.blend(object.appearance, 0.5f);
+    object.appearance = appearance;
+  }
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/movers/object_identity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace stillpoint::object_identity_test {
+namespace {
+
+constexpr double kNow_s = 5.0;
+
+/// A person of 0.4 x 1.6 x 0.3 m, reported, who walks to the right at 0.8 m/s and was seen up to now.
+TrackedObject walker(std::uint32_t id, const Vector3d& centroid) {
+  TrackedObject object;
+  object.mover.id = id;
+  object.mover.centroid = centroid;
+  object.mover.first_seen_s = 1.0;
+  object.mover.last_seen_s = kNow_s;
+  object.size_m = Vector3d(0.4, 1.6, 0.3);
+  object.mean_velocity = Vector3d(0.8, 0, 0);
+  for (int k = 0; k < 20; ++k) object.linear.correct(object.mean_velocity, 1e-4 * Matrix3d::Identity());
+  object.members = 100;
+  object.is_confirmed = true;
+  return object;
+}
+
+TrackedObject lost(TrackedObject object, double unseen_s) {
+  object.is_seen = false;
+  object.mover.state = MoverState::lost;
+  object.mover.last_seen_s = kNow_s - unseen_s;
+  for (double past_s = 0; past_s < unseen_s; past_s += 0.1) object.linear.predict(Matrix3d::Identity(), 0.1, 1.0);
+  return object;
+}
+
+/// A new object of 0.1 x 0.3 x 0.1 m.
+TrackedObject strip(const Vector3d& centroid, const Vector3d& velocity, std::size_t members = 20) {
+  TrackedObject object;
+  object.mover.centroid = centroid;
+  object.mover.first_seen_s = kNow_s - 0.1;
+  object.mover.last_seen_s = kNow_s;
+  object.size_m = Vector3d(0.1, 0.3, 0.1);
+  object.mean_velocity = velocity;
+  object.members = members;
+  return object;
+}
+
+double misfit(const TrackedObject& part, const TrackedObject& object) {
+  return ObjectIdentity::misfit_of_lost(part.mover.centroid, part.mean_velocity, part.appearance, object,
+                                        kNow_s - object.mover.last_seen_s);
+}
+
+TEST(ObjectIdentity, AStripInTheExtentOfALostObjectIsThatObject) {
+  const TrackedObject object = lost(walker(1, {0, 0, 2}), 0.5);
+  // 0.7 m from the centroid, inside of the box; the leg swings, and nobody knows what it looks like: (1/2 / 0.7)².
+  EXPECT_LT(misfit(strip({0.15, 0.7, 2}, {1.2, 0, 0}), object), ObjectIdentity::kMostMisfit);
+  EXPECT_NEAR(misfit(strip({0.15, 0.7, 2}, {0.8, 0, 0}), object), 0.25 / 0.49, 1e-3);
+}
+
+TEST(ObjectIdentity, WhoWalksTheOtherWayOrElsewhereIsSomebodyElse) {
+  const TrackedObject object = lost(walker(1, {0, 0, 2}), 0.2);
+  EXPECT_GT(misfit(strip({0, 0, 2}, {-0.9, 0, 0}), object), ObjectIdentity::kMostMisfit);
+  EXPECT_TRUE(std::isinf(misfit(strip({1.0, 0, 2}, {0.8, 0, 0}), object)));
+}
+
+TEST(ObjectIdentity, TheLongerItIsNotSeenTheFartherItMayBe) {
+  const TrackedObject part = strip({0.6, 0, 2}, {0.8, 0, 0});
+  EXPECT_TRUE(std::isinf(misfit(part, lost(walker(1, {0, 0, 2}), 0.1))));
+  EXPECT_LT(misfit(part, lost(walker(1, {0, 0, 2}), 0.8)), ObjectIdentity::kMostMisfit);
+}
+
+TEST(ObjectIdentity, ALimbIsOfTheBodyThatItMovesWith) {
+  const Vector3d foot(0.3, 1.2, 2);
+  std::vector<TrackedObject> objects = {walker(1, {0, 0, 2}), strip(foot, {1.5, 0, 0})};
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), 0);
+  objects[1].mean_velocity = Vector3d(-0.8, 0, 0);  // somebody who comes the other way
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone);
+  objects[1] = strip({1.5, 0, 2}, {0.8, 0, 0});  // somebody who walks ahead
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone);
+  objects[0].is_confirmed = false;
+  objects[1] = strip(foot, {0.8, 0, 0});
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone);
+}
+
+TEST(ObjectIdentity, WhatMayBeALimbWaitsForAStride) {
+  std::vector<TrackedObject> objects = {walker(1, {0, 0, 2}), strip({0.3, 1.2, 2}, {2.5, 0, 0})};
+  EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s + 0.5));
+  objects[1].members = 60;  // too large for a limb
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects[1].members = 20;
+  objects[0].mean_velocity.setZero();  // what stands has no limbs that swing
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+}
+
+TEST(ObjectIdentity, WhatComesBackTakesOverTheIdentifier) {
+  std::vector<TrackedObject> objects = {lost(walker(7, {0, 0, 2}), 0.5), walker(9, {3, 0, 2}),
+                                        strip({0.1, 0, 2}, {0.8, 0, 0})};
+  objects[2].points.add({0.1, 0, 2});
+  std::vector<std::int32_t> object_of = {0, 1, 2, 2, -1};
+  ObjectIdentity::unite(objects, 0, 2, object_of);
+  ASSERT_EQ(objects.size(), 2u);
+  EXPECT_EQ(objects[0].mover.id, 7u);
+  EXPECT_EQ(objects[0].mover.first_seen_s, 1.0);
+  EXPECT_TRUE(objects[0].is_confirmed);
+  EXPECT_TRUE(objects[0].is_seen);
+  EXPECT_EQ(objects[0].mover.centroid, Vector3d(0.1, 0, 2));
+  EXPECT_EQ(objects[0].points.size(), 1u);  // where it was predicted is forgotten
+  EXPECT_EQ(objects[1].mover.id, 9u);
+  EXPECT_EQ(object_of, (std::vector<std::int32_t>{0, 1, 0, 0, -1}));
+}
+
+}  // namespace
+}  // namespace stillpoint::object_identity_test
