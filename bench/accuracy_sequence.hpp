@@ -45,19 +45,10 @@ inline synthetic::Scene slow_mover() {
 
 /// A rendered frame with its features.
 inline LabelledFrame labelled_frame(const SyntheticFrame& rendered, cv::Feature2D& detector) {
-  const MobilityTable mobility;
   LabelledFrame frame;
-  frame.gray = as_mat(rendered.gray.view()).clone();
-  frame.depth = as_mat(rendered.depth.view()).clone();
-  frame.depth_factor = rendered.depth_factor;
-  frame.timestamp_s = rendered.timestamp_s;
+  static_cast<ClipFrame&>(frame) = clip_frame(rendered);
   frame.labels = as_mat(rendered.labels.view()).clone();
   frame.world_from_camera = rendered.world_from_camera;
-  for (const synthetic::TruthBox& box : rendered.boxes)
-    frame.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y), static_cast<float>(box.width),
-                                 static_cast<float>(box.height)},
-                                mobility[box.class_name],
-                                1.0f});
   detector.detect(frame.gray, frame.keypoints);
   return frame;
 }

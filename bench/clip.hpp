@@ -57,25 +57,30 @@ inline void detect_keypoints(Clip& clip) {
 
 }  // namespace detail
 
+/// A rendered frame, without keypoints; its true boxes are what a detector would say.
+inline ClipFrame clip_frame(const SyntheticFrame& rendered) {
+  const MobilityTable mobility;
+  ClipFrame frame;
+  frame.gray = as_mat(rendered.gray.view()).clone();
+  frame.depth = as_mat(rendered.depth.view()).clone();
+  frame.depth_factor = rendered.depth_factor;
+  frame.timestamp_s = rendered.timestamp_s;
+  for (const synthetic::TruthBox& box : rendered.boxes)
+    frame.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y), static_cast<float>(box.width),
+                                 static_cast<float>(box.height)},
+                                mobility[box.class_name],
+                                1.0f});
+  return frame;
+}
+
 /// Two people walk through a room; their true boxes are what a detector would say.
 inline Clip synthetic_clip(std::size_t frames) {
   SyntheticSequence sequence(synthetic::walking_people());
   Clip clip{"synthetic walking_people", sequence.camera(), {}};
-  const MobilityTable mobility;
   SyntheticFrame rendered;
   for (std::size_t i = 0; i < frames; ++i) {
     sequence.render(static_cast<int>(i), rendered);
-    ClipFrame frame;
-    frame.gray = as_mat(rendered.gray.view()).clone();
-    frame.depth = as_mat(rendered.depth.view()).clone();
-    frame.depth_factor = rendered.depth_factor;
-    frame.timestamp_s = rendered.timestamp_s;
-    for (const synthetic::TruthBox& box : rendered.boxes)
-      frame.detections.push_back({{static_cast<float>(box.x), static_cast<float>(box.y), static_cast<float>(box.width),
-                                   static_cast<float>(box.height)},
-                                  mobility[box.class_name],
-                                  1.0f});
-    clip.frames.push_back(std::move(frame));
+    clip.frames.push_back(clip_frame(rendered));
   }
   detail::detect_keypoints(clip);
   return clip;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // stillpoint_movers [NAME...]: movers against the true poses of objects, recorded and synthetic; one table in Markdown
-// on standard output. movers.sh builds and runs it.
+// on standard output. NAME+boxes hands a detector's boxes over, too. movers.sh builds and runs it.
 
 #include <opencv2/core/utility.hpp>
 
@@ -120,13 +120,26 @@ MoverSequence recorded(const std::filesystem::path& folder) {
   return sequence;
 }
 
+/// @throws Error where it is neither the name of a scene nor of a recording
+MoverSequence sequence_of(const std::string& name) {
+  if (name == "walking_people") return rendered(synthetic::walking_people());
+  if (name == "crossing_people") return rendered(synthetic::crossing_people());
+  if (name == "person_behind_pillar") return rendered(synthetic::person_behind_pillar());
+  if (name == "pushed_box") return rendered(synthetic::pushed_box());
+  if (name == "static_room") return rendered(synthetic::static_room());
+  if (name == "five_people") return rendered(synthetic::five_people());
+  return recorded(std::filesystem::path(STILLPOINT_SHARED_DATA) / name);
+}
+
 double median(const std::vector<double>& values) { return error_statistics(values).median; }
 
-void measure(const std::string& name, const MoverSequence& sequence) {
+/// @param gives_boxes  of a detector; where the scene is synthetic, the true ones
+void measure(const std::string& name, const MoverSequence& sequence, bool gives_boxes) {
   FrameFilter<WithMovers<>> filter(sequence.camera);
   MoverScore score(sequence.object_count);
   double total_ms = 0, movers_ms = 0;
   for (const MoverFrame& frame : sequence.frames) {
+    if (gives_boxes) filter.prior.detections = frame.detections;
     const FrameResult& result = filter.filter_frame(frame.view(), frame.keypoints);
     total_ms += result.timings().total_ms();
     movers_ms += result.timings()[Stage::movers];
@@ -160,26 +173,17 @@ int main(int argc, char** argv) {
   cv::setNumThreads(1);
   std::vector<std::string> names(argv + 1, argv + argc);
   if (names.empty())
-    names = {"kitchen_walk",   "kitchen_box", "kitchen_static", "kitchen_round",
-             "walking_people", "pushed_box",  "static_room"};
+    names = {"kitchen_walk",          "kitchen_walk+boxes",   "kitchen_box",          "kitchen_static",
+             "kitchen_round",         "walking_people",       "walking_people+boxes", "crossing_people",
+             "crossing_people+boxes", "person_behind_pillar", "pushed_box",           "static_room"};
   try {
     std::printf(
         "| sequence | object | frames | found, %% | switches | carried 1 s, cm | carried 1 s, deg | speed, m/s | "
         "velocity, m/s | RPE, mm | RPE, deg | frames with movers, %% | share of time, %% |\n"
         "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
     for (const std::string& name : names) {
-      if (name == "walking_people")
-        measure(name, rendered(synthetic::walking_people()));
-      else if (name == "crossing_people")
-        measure(name, rendered(synthetic::crossing_people()));
-      else if (name == "pushed_box")
-        measure(name, rendered(synthetic::pushed_box()));
-      else if (name == "static_room")
-        measure(name, rendered(synthetic::static_room()));
-      else if (name == "five_people")
-        measure(name, rendered(synthetic::five_people()));
-      else
-        measure(name, recorded(std::filesystem::path(STILLPOINT_SHARED_DATA) / name));
+      const std::string scene = name.substr(0, name.find('+'));
+      measure(name, sequence_of(scene), scene != name);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stillpoint_movers: %s\n", error.what());

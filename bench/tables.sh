@@ -5,14 +5,18 @@
 # bench/tables.sh FOLDER...: the paper's tables 1 to 4. Each FOLDER is a sequence of the TUM or Bonn benchmark as it is
 # unpacked (rgbd_dataset_freiburg3_walking_xyz, rgbd_bonn_crowd), or of the same layout; each is run with the filter and
 # without it in front of the SLAM of examples/slam. Prints Markdown; tables.csv in the working folder has all figures.
+# STILLPOINT_BUILD: a build folder that is configured already, in place of build/tables.
 # STILLPOINT_RUN_ARGUMENTS: more for stillpoint_run, such as '--prior MODEL --detect-every 10 --sync'.
 set -euo pipefail
 here=$PWD
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 (($# > 0)) || { echo 'usage: bench/tables.sh FOLDER...' >&2; exit 2; }
 
-cmake -S "$project" -B "$project/build/tables" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF > /dev/null
-cmake --build "$project/build/tables" --target stillpoint_run stillpoint_tables >&2
+build=${STILLPOINT_BUILD:-$project/build/tables}
+if [[ -z ${STILLPOINT_BUILD:-} ]]; then
+  cmake -S "$project" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF > /dev/null
+fi
+cmake --build "$build" --target stillpoint_run stillpoint_tables >&2
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -34,9 +38,9 @@ for name in "${names[@]}"; do
     echo "$name"
     continue
   fi
-  "$project/build/tables/examples/stillpoint_run" --tum "$folder" --backend slam --mapping-in-step --out "$work/$name" \
+  "$build/examples/stillpoint_run" --tum "$folder" --backend slam --mapping-in-step --out "$work/$name" \
     --quiet "${more[@]}" > /dev/null
   printf '%s\t%s\t%s\t%s\n' "$name" "$folder/groundtruth.txt" "$work/$name/trajectory.txt" \
     "$work/$name/trajectory_unfiltered.txt"
 done > "$work/rows"
-"$project/build/tables/bench/stillpoint_tables" "$here/tables.csv" < "$work/rows"
+"$build/bench/stillpoint_tables" "$here/tables.csv" < "$work/rows"

@@ -59,7 +59,7 @@ inline double octave_at(double scale) { return std::log(scale) / std::log(1.2); 
 
 /// How wrong a feature's pixel and depth are, one standard deviation.
 struct MeasurementNoise {
-  double pixel_sigma = 0.7;         ///< at full size
+  double pixel_sigma = 0.5;         ///< at full size; measured on pairs of frames whose poses are known
   double depth_sigma_factor = 3.0;  ///< times KinectNoise: depth and colour are not taken at the same moment
   stillpoint::KinectNoise depth_noise;
 

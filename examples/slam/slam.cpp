@@ -25,7 +25,7 @@ Slam::Slam(Camera camera, const SlamOptions& settings)
 
 OrbFeatures Slam::extract(const stillpoint::FrameView& frame) {
   OrbFeatures features = orb_.extract(frame);
-  if (finds_dynamic()) extracted_ = {features.keypoints, features.descriptors.clone(), {}};
+  extracted_ = {features.keypoints, finds_dynamic() ? features.descriptors.clone() : cv::Mat(), {}};
   is_dynamic_.assign(features.keypoints.size(), 0);
   return features;
 }
@@ -41,6 +41,7 @@ void Slam::expect_detections(stillpoint::span<const stillpoint::Detection> detec
 }
 
 std::optional<Pose> Slam::track(const stillpoint::FrameView& view, const OrbFeatures& features) {
+  orb_.look_past(extracted_.keypoints, features.keypoints);
   Frame frame = prepare(view, features);
   std::unique_lock<std::mutex> lock(keeper_->mutex);
   Map& map = keeper_->map;

@@ -56,6 +56,10 @@ struct SlamOptions {
   bool uses_bundle = true;      ///< adjusts them
   bool uses_loops = true;
   bool uses_objects = true;  ///< as a cue of loops
+
+  SlamOptions() {
+    orb.cell_px = 64;  // smaller ones take corners where there are none worth it: they aren't found again
+  }
 };
 
 /// A backend of `FilteredTracker`. The world is the camera of the first frame that is tracked.
@@ -96,7 +100,7 @@ class Slam {
   SpreadOrb orb_;
   std::unique_ptr<MapKeeper> keeper_;  ///< stays where it is when this is moved
   std::vector<SeenObject> objects_;
-  OrbFeatures extracted_;  ///< of the coming frame, before the filter drops any
+  OrbFeatures extracted_;  ///< of the coming frame, before the filter drops any: descriptors with `finds_dynamic` alone
   std::vector<std::uint8_t> is_dynamic_;
 };
 
