@@ -5,9 +5,9 @@
 
 #include <cstdio>
 #include <opencv2/features2d.hpp>
-#include <stillpoint/filter_frame.hpp>
-#include <stillpoint/opencv.hpp>
 #include <stillpoint/policies/with_movers.hpp>
+#include <stillpoint/prior/propagated_prior.hpp>
+#include <stillpoint/stillpoint.hpp>
 #include <stillpoint/synthetic/renderer.hpp>
 #include <stillpoint/synthetic/scenes.hpp>
 #include <vector>

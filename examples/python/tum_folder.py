@@ -16,8 +16,16 @@ orb = cv2.ORB_create(1000)
 matcher = cv2.BFMatcher(cv2.NORM_HAMMING, crossCheck=True)
 last = None  # descriptors of the frame before
 
-rows = [row.split() for row in (folder / "associations.txt").read_text().splitlines() if not row.startswith("#")]
-for time_s, image_file, _, depth_file in rows:
+
+def rows(name):
+    return [row.split() for row in (folder / name).read_text().splitlines() if row and not row.startswith("#")]
+
+
+depths = rows("depth.txt")
+for time_s, image_file in rows("rgb.txt"):
+    depth_time_s, depth_file = min(depths, key=lambda row: abs(float(row[0]) - float(time_s)))
+    if abs(float(depth_time_s) - float(time_s)) > 0.02:
+        continue  # an image without depth
     image = cv2.imread(str(folder / image_file))
     depth = cv2.imread(str(folder / depth_file), cv2.IMREAD_UNCHANGED)  # uint16
     keypoints, descriptors = orb.detectAndCompute(image, None)

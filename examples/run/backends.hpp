@@ -158,10 +158,17 @@ class AnyTracker {
         return std::nullopt;
     }
     std::optional<MapFiles> map_files() override {
-      if constexpr (has_map<Backend>::value)
-        return MapFiles{backend.map_ply(), backend.map_ply_before_loop()};
-      else
+      if constexpr (has_map<Backend>::value) {
+        MapFiles files{backend.map_ply(), backend.map_ply_before_loop(), {}, {}};  // behind them the map is at rest
+        const auto& map = backend.keeper().map;
+        for (const auto& [id, keyframe] : map.keyframes()) files.keyframes.push_back(keyframe.timestamp_s);
+        for (const auto& loop : backend.keeper().loops)
+          if (map.has(loop.keyframe) && map.has(loop.place))
+            files.loops.push_back({map.keyframe(loop.place).timestamp_s, map.keyframe(loop.keyframe).timestamp_s});
+        return files;
+      } else {
         return std::nullopt;
+      }
     }
     stillpoint::span<const std::uint8_t> dynamic_features() override {
       if constexpr (stillpoint::has_dynamic_features<Backend>::value)

@@ -28,20 +28,20 @@ struct Correction {
 
 inline constexpr std::array<Correction, 15> kCorrections = {{
     {"whitened", "offsets in radians and metres, Eq. 9, in place of likelihoods"},
-    {"calibrated", "the level is the mean score of what stands still, Eq. 10"},
+    {"calibrated", "the level is the mean score of the static features, Eq. 10"},
     {"measured-noise", "matches support a motion within 0.1 px, not within the noise"},
     {"own-noise", "pixel and depth noise as assumed, not as found in the frame; the gate does not learn"},
-    {"standing-camera", "a camera that stands is estimated like any other"},
+    {"standing-camera", "a stationary camera is estimated like any other"},
     {"clusters", "a tenth as many clusters as features, undivided, that decide alone"},
     {"all-features", "only features in boxes of moving classes are tested"},
     {"older-frames", "features are looked for in the last frame alone"},
     {"memory", "each frame is judged by itself; no suspicion either"},
     {"lost-features", "what no longer looks alike is no evidence"},
     {"past-hypothesis", "the motion is that with the most support, whatever went before"},
-    {"inertia", "the motion is what was seen, whatever the velocity was"},
+    {"inertia", "the motion is what was measured, whatever the velocity was"},
     {"area-support", "the host's keypoints support the motion, not corners and surfaces by area"},
     {"depth-guard", "depth at the rounded pixel, edges and holes or not"},
-    {"keep-floor", "all that moves is dropped, whatever is left"},
+    {"keep-floor", "all dynamic features are dropped, whatever is left"},
 }};
 
 /// Those that are switched off.

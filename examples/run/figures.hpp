@@ -27,6 +27,7 @@ namespace stillpoint_run {
 struct RunRecord {
   std::string sequence;
   std::vector<FrameSummary> frames;
+  std::vector<MoverInFrame> movers;  ///< of all frames, in their order
   bool has_backend = false, has_stages = false, has_labels = false, has_depth = true;
   bool was_interrupted = false;
   std::size_t missing_files = 0;                ///< that the sequence's lists name

@@ -80,7 +80,7 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const F
     filter.ego_motion.kind = motion_kind(options.ego_motion);
     filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;
   }
-  if constexpr (std::is_base_of_v<WithSwitchedMovers, Policies>) filter.movers.is_on = options.has_movers();
+  if constexpr (std::is_base_of_v<WithSwitchedMovers, Policies>) filter.movers.tracking.is_on = options.has_movers();
   switch_off(options.without, filter);
   return filter;
 }

@@ -63,6 +63,17 @@ struct MoverRow {
   std::string class_name;  ///< one word
 };
 
+/// What is kept of a mover in one frame of the run.
+struct MoverInFrame {
+  std::size_t frame = 0;  ///< of the run, from 0
+  std::uint32_t id = 0;
+  stillpoint::MoverState state = stillpoint::MoverState::moving;
+  stillpoint::Box box;
+  stillpoint::Vector3d centroid = stillpoint::Vector3d::Zero();  ///< in the camera, metres
+  double speed_m_s = 0.0;
+  std::string class_name;
+};
+
 /// What the filter said of the current frame, refilled each time.
 struct FrameRecord {
   FrameSummary summary;

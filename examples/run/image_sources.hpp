@@ -44,7 +44,7 @@ inline std::optional<double> given_rate(const Options& options) {
 
 inline std::string rate_words() {
   return "The files' names tell no times: " + stillpoint::format_fixed(stillpoint::kAssumedFrameRate_hz, 0) +
-         " frames a second are assumed (--fps).";
+         " frames per second are assumed (--fps).";
 }
 
 /// What the two sources below share: a camera that may have to be guessed, and no depth.

@@ -60,16 +60,17 @@ inline void add_input_options(CLI::App& app, InputOptions& options) {
   app.add_flag("--demo", options.demo, "a synthetic scene, rendered in memory");
   add_path("--tum", "FOLDER", options.tum, "a sequence in the layout of the TUM RGB-D benchmark");
   add_path("--euroc", "FOLDER", options.euroc, "a stereo sequence in the layout of the EuRoC datasets");
-  add_path("--bag", "FILE", options.bag, "a bag of ROS 1 with images, aligned depth and camera_info");
-  add_path("--image-topic", "TOPIC", options.image_topic, "of --bag, where it has more than one");
-  add_path("--depth-topic", "TOPIC", options.depth_topic, "of --bag, where it has more than one");
+  add_path("--bag", "FILE", options.bag, "a ROS 1 bag with images, aligned depth and camera_info");
+  add_path("--image-topic", "TOPIC", options.image_topic, "of --bag, if it has more than one");
+  add_path("--depth-topic", "TOPIC", options.depth_topic, "of --bag, if it has more than one");
   add_path("--camera-info-topic", "TOPIC", options.camera_info_topic, "of --bag, if not the one beside the image's");
   add_path("--images", "FOLDER", options.images, "a folder of images, in the order of their names");
   add_path("--right", "FOLDER", options.right,
            "the right images of a rectified stereo pair, named as the left ones in --images");
   add_path("--video", "FILE|N", options.video, "a video, or the number of a camera; Ctrl-C ends it with a report");
-  add_path("--camera", "FILE", options.camera, "the camera, where the folder has no camera.yaml or another is wanted");
-  app.add_option("--fps", options.frame_rate_hz, "frames a second of --images or --video, where it is not as they say")
+  add_path("--camera", "FILE", options.camera, "camera.yaml to use, if the folder has none, or in place of it");
+  app.add_option("--fps", options.frame_rate_hz,
+                 "frames per second of --images or --video, if names or file do not say it")
       ->type_name("RATE")
       ->check(number(0.001, 10000, "0.001 to 10000"))
       ->default_str("");

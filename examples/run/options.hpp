@@ -217,39 +217,40 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
     return app.add_option(name, number, help)->type_name("N")->check(detail::whole_number(least, greatest));
   };
   detail::add_input_options(app, options);
-  add_path("--out", "OUT", options.out, "folder of the results, made if it is not there");
+  add_path("--out", "OUT", options.out, "folder of the results; it is made if it does not exist");
   add_path("--save-video", "OUT.mp4", options.save_video,
-           "the frames with what was decided of them and the trajectories beside, as a video: .mp4 or .avi")
+           "writes a video of the frames with their verdicts, and of the trajectories: .mp4 or .avi")
       ->check(detail::video_name())
       ->default_str("");
-  add_path(
-      "--options", "FILE", options.stages,
-      "options of the filter's stages, as an earlier run or --calibrate left them in options.yaml; what is said here "
-      "as well goes before the file")
+  add_path("--options", "FILE", options.stages,
+           "options of the filter's stages: an options.yaml that an earlier run or --calibrate wrote; options on the "
+           "command line override the file")
       ->default_str("");
   app.add_flag(
       "--calibrate", options.calibrate,
-      "measures the noise of pixels and depths on a scene in which nothing moves, and writes OUT/options.yaml, in "
-      "place of a run");
+      "measures the noise of pixels and depths on a scene in which nothing moves, and writes OUT/options.yaml; "
+      "nothing else is written");
   const CLI::Option* depth_noise =
       detail::add_choice(app, "--depth-noise", options.depth_noise, {"kinect", "stereo", "tof"},
-                         "how wrong the depth is; stereo pairs: stereo unless told");
+                         "noise model of the depth; default for stereo pairs: stereo");
   const CLI::Option* policies = detail::add_choice(
       app, "--policies", options.policies, {"default", "paper", "monocular"},
-      "which set of stages: the corrected method, the paper's, or one without depth; images without depth: monocular "
-      "unless told");
-  detail::add_choice(app, "--ego-motion", options.ego_motion, {"default", "rigid", "epipolar"},
-                     "how the camera's motion is found; default is what the policies take: by area and trust for the "
-                     "default ones, epipolar for the paper's");
-  app.add_option("--paper-as-printed", options.as_printed, "printed errors of the paper to repeat, commas between")
+      "set of stages: the corrected method, the paper's, or one without depth; default for images without depth: "
+      "monocular");
+  detail::add_choice(
+      app, "--ego-motion", options.ego_motion, {"default", "rigid", "epipolar"},
+      "how the camera's motion is estimated; default is that of the policies: weighted by area and trust "
+      "for the default ones, epipolar for the paper's");
+  app.add_option("--paper-as-printed", options.as_printed, "printed errors of the paper to repeat, separated by commas")
       ->delimiter(',')
       ->type_name("eq3,eq8,unit-t")
       ->check(detail::one_of({"eq3", "eq8", "unit-t"}, "eq3, eq8, unit-t"))
       ->default_str("");
-  app.add_option("--false-positive-rate", options.false_positive_rate, "share of standing features that may be dropped")
+  app.add_option("--false-positive-rate", options.false_positive_rate,
+                 "share of the static features that may be dropped")
       ->type_name("RATE")
       ->check(detail::number(1e-6, 0.5, "0.000001 to 0.5"));
-  app.add_option("--without", options.without.names, "corrections to switch off, commas between; listed below")
+  app.add_option("--without", options.without.names, "corrections to switch off, separated by commas; listed below")
       ->delimiter(',')
       ->type_name("CORRECTION")
       ->check(detail::one_of(detail::correction_names(), detail::correction_list()))
@@ -259,50 +260,51 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
       app.add_option(
              "--prior", options.prior,
              "where something may move: boxes of the sequence, or what a network finds (MODEL: .onnx, .cfg, .pb "
-             "...). labels is an oracle that drops what the labels call a mover, a yardstick. The demo of the "
-             "paper's method takes boxes unless told otherwise")
+             "...). labels drops the features by the true labels, for comparison. Default for --demo with the "
+             "paper's method: boxes")
           ->type_name("none|boxes|labels|MODEL")
           ->check(detail::prior());
-  app.add_option(
-         "--detector-layout", options.detector_layout,
-         "how the network writes down what it has found, if that can't be told from its outputs: yolov8, ssd ...")
+  app.add_option("--detector-layout", options.detector_layout,
+                 "layout of the network's outputs, if it is not recognised by their shapes: yolov8, ssd ...")
       ->type_name("NAME")
       ->check(detail::layout());
-  app.add_option("--classes", options.classes,
-                 "the network's classes: a file with one name a line, or coco, coco91, voc, voc21, cityscapes, person")
+  app.add_option(
+         "--classes", options.classes,
+         "the network's classes: a file with one name per line, or coco, coco91, voc, voc21, cityscapes, person")
       ->type_name("FILE")
       ->check(detail::not_empty())
       ->default_str("by the network");
   add_number("--detect-every", options.detect_every, 1, most,
-             "the detector looks at every N-th frame; boxes of the others are not handed over");
+             "the detector runs on every N-th frame; boxes of the other frames are not used");
   app.add_flag("--sync", options.is_synchronous,
-               "each frame waits for the network: the same bytes in every run. Without it the network has a thread of "
-               "its own, and frames come when they are due");
-  app.add_option("--drop-boxes", options.drop_boxes, "share of the boxes that is left out at random, by --seed")
+               "each frame waits for the network: the same bytes in every run. Without it, the network has a thread of "
+               "its own, and frames are replayed in real time");
+  app.add_option("--drop-boxes", options.drop_boxes, "share of the boxes that are left out at random, by --seed")
       ->type_name("SHARE")
       ->check(detail::number(0.0, 1.0, "0 to 1"));
   const CLI::Option* backend = detail::add_choice(
       app, "--backend", options.backend, {"odometry", "klt", "orb", "slam", "none"},
-      "the tracker behind the filter; slam keeps a map; klt finds its points by a grid, not --features; without depth: "
-      "none unless told");
-  app.add_option("--slam-without", options.slam_parts_off, "parts of the SLAM to switch off, commas between")
+      "the tracker behind the filter; slam keeps a map; klt finds its points by a grid, not --features; default "
+      "without depth: none");
+  app.add_option("--slam-without", options.slam_parts_off, "parts of the SLAM to switch off, separated by commas")
       ->delimiter(',')
       ->type_name("multi-view,bundle,loops,semantics")
       ->check(detail::one_of({"multi-view", "bundle", "loops", "semantics"}, "multi-view, bundle, loops, semantics"))
       ->default_str("");
   app.add_flag(
       "--mapping-in-step", options.maps_in_step,
-      "each frame waits for the SLAM's mapping: the same bytes in every run. Without it mapping has a thread of "
+      "each frame waits for the SLAM's mapping: the same bytes in every run. Without it, mapping has a thread of "
       "its own");
-  add_number("--features", options.features, 1, 100000, "ORB features a frame");
+  add_number("--features", options.features, 1, 100000, "ORB features per frame");
   add_number("--start", options.start, 0, most, "first frame, counted from 0");
-  add_number("--frames", options.frames, 1, most, "frames at most")->default_str("all");
+  add_number("--frames", options.frames, 1, most, "largest number of frames")->default_str("all");
   add_number("--seed", options.seed, std::uint64_t{0}, std::numeric_limits<std::uint64_t>::max(),
-             "of the filter's random numbers");
-  add_number("--threads", options.threads, 1, 1024, "that OpenCV may use; results do not depend on it");
-  app.add_flag("--no-movers", options.no_movers,
-               "follows no objects and writes no movers.csv; verdicts are the same. The default stages alone follow "
-               "objects: with others the file is empty");
+             "seed of the filter's random numbers");
+  add_number("--threads", options.threads, 1, 1024, "threads that OpenCV may use; results do not depend on it");
+  app.add_flag(
+      "--no-movers", options.no_movers,
+      "follows no objects and writes no movers.csv; verdicts are the same. With policies other than the default "
+      "ones the file is always empty");
   app.add_flag("--quiet", options.quiet, "no progress on standard error");
 
   try {

@@ -16,6 +16,7 @@
 #include "explanations.hpp"
 #include "figures.hpp"
 #include "html.hpp"
+#include "mover_history.hpp"
 #include "options.hpp"
 #include "picture_roll.hpp"
 #include "run_paths.hpp"
@@ -59,7 +60,32 @@ inline nlohmann::ordered_json paths_data(const std::vector<DrawnPath>& paths) {
         points.push_back({rounded(point->x()), rounded(point->y()), rounded(point->z())});
       else
         points.push_back(nullptr);
-    data[path.css_class] = std::move(points);
+    data[path.key] = std::move(points);
+  }
+  return data;
+}
+
+/// Each mover from its frame `from` on: `seen` is [x, y, width, height, speed, state] or null, `path` as those above.
+inline nlohmann::json movers_data(const std::vector<MoverHistory>& movers, const std::vector<DrawnPath>& paths) {
+  nlohmann::json data = nlohmann::json::array();
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    nlohmann::json seen = nlohmann::json::array(), path = nlohmann::json::array();
+    for (std::size_t i = movers[m].first_frame; i <= movers[m].last_frame; ++i) {
+      seen.push_back(nullptr);
+      if (const MoverInFrame* const now = movers[m].in(i))
+        seen.back() = {std::round(now->box.x),      std::round(now->box.y),  std::round(now->box.width),
+                       std::round(now->box.height), rounded(now->speed_m_s), to_string(now->state)};
+      path.push_back(nullptr);
+      if (m < paths.size() && paths[m].of_frame[i])
+        path.back() = {rounded(paths[m].of_frame[i]->x()), rounded(paths[m].of_frame[i]->y()),
+                       rounded(paths[m].of_frame[i]->z())};
+    }
+    data.push_back({{"key", movers[m].key()},
+                    {"name", movers[m].name()},
+                    {"colour", m % kMoverColours},
+                    {"from", movers[m].first_frame},
+                    {"seen", std::move(seen)},
+                    {"path", std::move(path)}});
   }
   return data;
 }
@@ -105,13 +131,15 @@ inline nlohmann::json terms_data() {
 }  // namespace detail
 
 /// JSON that can stand in a script element.
-inline std::string report_data(const Options& options, const RunRecord& run, const std::vector<DrawnPath>& paths,
-                               const stillpoint::Camera& camera, const PictureRoll& roll) {
+inline std::string report_data(const Options& options, const RunRecord& run, const DrawnPaths& paths,
+                               const std::vector<MoverHistory>& movers, const stillpoint::Camera& camera,
+                               const PictureRoll& roll) {
   const nlohmann::ordered_json data = {{"width", camera.width()},
                                        {"height", camera.height()},
                                        {"stride", roll.stride()},
                                        {"frames", detail::frames_data(options, run)},
-                                       {"paths", detail::paths_data(paths)},
+                                       {"paths", detail::paths_data(paths.trajectories)},
+                                       {"movers", detail::movers_data(movers, paths.movers)},
                                        {"pictures", detail::pictures_data(roll.pictures())},
                                        {"terms", detail::terms_data()}};
   constexpr int kOneLine = -1;  // of a detector's class names nobody knows the encoding

@@ -9,6 +9,7 @@
 
 #include "html.hpp"
 #include "moments.hpp"
+#include "mover_history.hpp"
 #include "page/page.hpp"
 #include "report_data.hpp"
 #include "report_plots.hpp"
@@ -34,7 +35,7 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
   if (figures.improvement_percent)
     html += tile("improvement", stillpoint::format_fixed(*figures.improvement_percent, 0) + " %", "of the ATE");
   if (!run.ground_truth && figures.divergence_max_m)
-    html += tile("filtered and unfiltered part", length_words(*figures.divergence_max_m), "at most; no reference");
+    html += tile("filtered and unfiltered differ by", length_words(*figures.divergence_max_m), "at most; no reference");
   if (const auto recall = run.labels.recall())
     html += tile("moving features dropped", percent_words(*recall),
                  "recall, of " + std::to_string(run.labels.moving().features));
@@ -43,7 +44,7 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
                  "false positives, of " + std::to_string(run.labels.background().features) + " features");
   if (figures.kept_share)
     html += tile("features kept", percent_words(*figures.kept_share),
-                 "of " + stillpoint::format_fixed(*figures.features_per_frame, 0) + " a frame");
+                 "of " + stillpoint::format_fixed(*figures.features_per_frame, 0) + " per frame");
   for (const StageTime& stage : figures.times)
     if (stage.name == "filter" && stage.ms)
       html += tile("filter's time per frame", stillpoint::format_fixed(stage.ms->median, 1) + " ms",
@@ -51,7 +52,7 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
   return html.empty() ? "" : "<dl class=\"tiles\">" + html + "</dl>\n";
 }
 
-std::string legend() {
+std::string legend(bool has_movers) {
   const auto entry = [](const char* picture, const char* name) {
     return std::string("<li><svg viewBox=\"0 0 30 14\" aria-hidden=\"true\">") + picture + "</svg>" + name + "</li>";
   };
@@ -65,19 +66,22 @@ std::string legend() {
                "carried from an earlier one") +
          entry("<path class=\"shape kept\" d=\"M3 11L27 3\"/>",
                "offset from where it would be if it were static, × 3") +
+         (has_movers ? entry("<path class=\"shape mover0\" d=\"M3 1h24v12H3Z\"/>", "mover: identifier and speed")
+                     : "") +
          "</ul>";
 }
 
 /// Where the script shows a frame; page/player.js.
-std::string player(const PictureRoll& roll) {
+std::string player(const PictureRoll& roll, bool has_movers) {
   return "<section id=\"frames\"><h2>Frames</h2>\n<div class=\"screen\"><img id=\"picture\" alt=\"Camera image\">"
          "<canvas id=\"drawing\" role=\"img\" aria-label=\"Verdict of each feature\"></canvas></div>\n"
          "<p id=\"feature\" class=\"more\" aria-live=\"polite\">Point at a feature to see why.</p>\n"
          "<p id=\"status\"></p>\n" +
-         legend() +
+         legend(has_movers) +
          "<p class=\"switches\"><label><input type=\"checkbox\" id=\"show_features\" checked> features</label> "
          "<label><input type=\"checkbox\" id=\"show_boxes\" checked> boxes</label> "
-         "<label><input type=\"checkbox\" id=\"show_offsets\" checked> offsets</label></p>\n"
+         "<label><input type=\"checkbox\" id=\"show_offsets\" checked> offsets</label> "
+         "<label><input type=\"checkbox\" id=\"show_movers\" checked> movers</label></p>\n"
          "<table id=\"reasons\"><caption>Why, in this frame</caption><thead><tr><th scope=\"col\">reason</th>"
          "<th scope=\"col\" class=\"n\">kept</th><th scope=\"col\" class=\"n\">dropped</th></tr></thead>"
          "<tbody></tbody></table>\n" +
@@ -102,10 +106,10 @@ std::string moments_section(const RunRecord& run, const Figures& figures) {
                       : "<section><h2>Moments worth a look</h2><ul class=\"moments\">\n" + html + "</ul></section>\n";
 }
 
-std::string maps_section(const std::vector<DrawnPath>& paths) {
-  if (paths.empty()) return "";
+std::string maps_section(const DrawnPaths& paths) {
+  if (paths.trajectories.empty()) return "";
   return "<section><h2>Trajectories</h2><div class=\"plots\">\n" + figure_of(map_plot(paths, {0, 1})) +
-         figure_of(map_plot(paths, {1, 2})) +
+         figure_of(map_plot(paths, {1, 2})) + (paths.movers.empty() ? "" : figure_of(movers_map(paths))) +
          "<figure class=\"plot\"><h3>Trajectories in 3D</h3><canvas id=\"turntable\" tabindex=\"0\" role=\"img\" "
          "aria-label=\"Trajectories in 3D; the arrow keys turn them\"></canvas><figcaption>Drag to turn, or use the "
          "arrow keys; + and - or the wheel with Ctrl zoom. The grid is level, at the start's height, one metre a "
@@ -135,22 +139,24 @@ std::string report_html(const Options& options, const RunRecord& run, const Figu
                         const stillpoint::Camera& camera, const PictureRoll& roll) {
   const std::string title = "stillpoint: " + run.sequence;
   const std::vector<std::string> found = sentences(options, run, figures);
-  const std::vector<DrawnPath> paths = drawn_paths(run, figures);
+  const std::vector<MoverHistory> movers = mover_histories(run);
+  const DrawnPaths paths = drawn_paths(run, figures, movers);
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\"><title>" +
       escaped(title) + "</title><style>" + kReportStyle + "</style></head>\n<body><main>\n<h1>" + escaped(title) +
       "</h1>\n<p class=\"lead\">" + escaped(found[0]) + ' ' + escaped(found[1]) + "</p>\n";
   for (std::size_t i = 2; i < found.size(); ++i) html += "<p class=\"more\">" + escaped(found[i]) + "</p>\n";
-  html += tiles(run, figures) + kHow + "<div class=\"desk\">\n<div class=\"left\">" + player(roll) +
+  html += tiles(run, figures) + kHow + "<div class=\"desk\">\n<div class=\"left\">" + player(roll, !movers.empty()) +
           "</div>\n<div class=\"right\">" + moments_section(run, figures) + maps_section(paths) +
           "<section><h2>Over time</h2><div class=\"plots\">\n";
-  for (const Plot& plot : report_plots(run, figures)) html += figure_of(plot);
+  for (const Plot& plot : report_plots(run, figures, movers)) html += figure_of(plot);
   html += "</div></section>\n</div>\n</div>\n<section><h2>Numbers</h2><div class=\"tables\">\n" +
-          report_tables(options, run, figures) +
+          report_tables(options, run, figures, movers) +
           "</div></section>\n<footer>stillpoint_run " STILLPOINT_VERSION "</footer>\n" + kClock +
-          "</main>\n<script type=\"application/json\" id=\"run\">" + report_data(options, run, paths, camera, roll) +
-          "</script>\n<script>\n\"use strict\";\n" + kReportScript + "</script>\n</body></html>\n";
+          "</main>\n<script type=\"application/json\" id=\"run\">" +
+          report_data(options, run, paths, movers, camera, roll) + "</script>\n<script>\n\"use strict\";\n" +
+          kReportScript + "</script>\n</body></html>\n";
   return html;
 }
 

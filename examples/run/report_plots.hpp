@@ -33,8 +33,18 @@ inline double seconds_of(const RunRecord& run, double timestamp_s) {
 
 }  // namespace detail
 
+namespace detail {
+
+inline Line map_line(const DrawnPath& path, const std::array<int, 2>& axes) {
+  Line line{path.name, path.css_class, {}, path.of_frame.empty() ? "" : path.key};
+  for (const stillpoint::Vector3d& point : path.points) line.points.emplace_back(point[axes[0]], point[axes[1]]);
+  return line;
+}
+
+}  // namespace detail
+
 /// A map in two of the three axes: right (0), ahead (1), up (2).
-inline Plot map_plot(const std::vector<DrawnPath>& paths, std::array<int, 2> axes) {
+inline Plot map_plot(const DrawnPaths& drawn, std::array<int, 2> axes) {
   const bool is_from_above = axes[0] == 0;
   Plot plot;
   plot.title = is_from_above ? "Trajectories from above" : "Trajectories from the side";
@@ -43,16 +53,65 @@ inline Plot map_plot(const std::vector<DrawnPath>& paths, std::array<int, 2> axe
   plot.is_map = true;
   plot.map_axes = axes;
   bool has_reference = false;
-  for (const DrawnPath& path : paths) {
-    Line line{path.name, path.css_class, {}};
-    for (const stillpoint::Vector3d& point : path.points) line.points.emplace_back(point[axes[0]], point[axes[1]]);
-    has_reference = has_reference || line.css_class == "truth";
+  const auto add_map = [&](bool is_loops) {
+    for (const DrawnPath& path : drawn.map)
+      if (is_from_above && (path.css_class == "loops") == is_loops) plot.lines.push_back(detail::map_line(path, axes));
+  };
+  add_map(false);
+  for (const DrawnPath& path : drawn.trajectories) {
+    has_reference = has_reference || path.css_class == "truth";
+    plot.lines.push_back(detail::map_line(path, axes));
+  }
+  add_map(true);  // short, and on the trajectories
+  plot.description = has_reference
+                         ? "The camera's path with and without the filter from the same start, aligned to the "
+                           "reference as the better one is."
+                         : "The camera's path with and without the filter; there is no reference.";
+  if (is_from_above && !drawn.map.empty())
+    plot.description += " Keyframes are those that the map has in the end; a loop connects two of them.";
+  return plot;
+}
+
+/// Where movers went, from above, with the camera's path.
+inline Plot movers_map(const DrawnPaths& drawn) {
+  constexpr std::array<int, 2> kFromAbove = {0, 1};
+  Plot plot;
+  plot.title = "Movers from above";
+  plot.x_label = "to the right of the start, m";
+  plot.y_label = "ahead of the start, m";
+  plot.is_map = true;
+  for (const DrawnPath& path : drawn.trajectories) {
+    if (path.css_class != "filtered") continue;
+    plot.lines.push_back(detail::map_line(path, kFromAbove));
+    plot.lines.back().name = "camera, with the filter";
+  }
+  for (const DrawnPath& path : drawn.movers) {
+    plot.lines.push_back(detail::map_line(path, kFromAbove));
+    plot.lines.back().label = path.key.substr(path.key.find(' ') + 1);
+  }
+  plot.description =
+      "The centroid of the points that are seen of each, placed by the camera's path: it shifts where an object is "
+      "half "
+      "covered. The number is the identifier, at the end. Nothing is drawn where a mover is lost.";
+  return plot;
+}
+
+inline Plot speed_plot(const RunRecord& run, const std::vector<MoverHistory>& movers) {
+  Plot plot;
+  plot.title = "Speed of movers";
+  plot.x_label = "time, s";
+  plot.y_label = "relative to the world, m/s";
+  for (std::size_t m = 0; m < movers.size(); ++m) {
+    Line line{movers[m].name(), mover_class(m), {}};
+    for (std::size_t i = 0; i < run.frames.size(); ++i) {
+      const MoverInFrame* const seen = movers[m].in(i);
+      const bool is_seen = seen != nullptr && seen->state != stillpoint::MoverState::lost;
+      line.points.emplace_back(detail::seconds_of(run, run.frames[i].timestamp_s),
+                               is_seen ? seen->speed_m_s : detail::kGap);
+    }
     plot.lines.push_back(std::move(line));
   }
-  plot.description = has_reference ? "The camera's path with and without the filter from the same start, laid on the "
-                                     "reference as the better one "
-                                     "fits it."
-                                   : "The camera's path with and without the filter; nobody knows the true one.";
+  plot.description = "Of each object's centroid, by the filter's own motion; a gap where it is lost.";
   return plot;
 }
 
@@ -83,8 +142,8 @@ inline Plot error_plot(const RunRecord& run, const Figures& figures, const detai
   plot.x_label = "time, s";
   plot.y_label = std::string("from the reference, ") + kind.y_label;
   plot.description = std::string("How far each pose's ") + kind.noun +
-                     " is from the reference's. Both trajectories start at the same pose and are laid on the reference "
-                     "as the better one fits it; the ATE aligns each by itself";
+                     " is from the reference's. Both trajectories start at the same pose, and are aligned to the "
+                     "reference by the alignment of the better one; the ATE aligns each by itself";
   const auto add = [&](const char* name, const char* css_class, const TrajectoryFigures& trajectory) {
     const stillpoint::TrajectoryErrors& errors = trajectory.drift;
     const std::vector<double>& values = errors.*kind.values;
@@ -100,17 +159,17 @@ inline Plot error_plot(const RunRecord& run, const Figures& figures, const detai
   return plot;
 }
 
-/// Where nobody knows the truth: how far filtered and unfiltered part.
+/// Where there is no reference: the difference of filtered and unfiltered trajectory.
 inline Plot divergence_plot(const RunRecord& run, const Figures& figures, const detail::ErrorKind& kind) {
   Plot plot;
-  plot.title = std::string("Filtered and unfiltered part: ") + kind.noun;
+  plot.title = std::string("Difference of filtered and unfiltered: ") + kind.noun;
   plot.x_label = "time, s";
-  plot.y_label = std::string("apart, ") + kind.y_label;
-  plot.lines.push_back(
-      detail::error_line(run, "apart", "filtered", figures.divergence, figures.divergence.*kind.values, kind.factor));
+  plot.y_label = std::string("difference, ") + kind.y_label;
+  plot.lines.push_back(detail::error_line(run, "difference", "filtered", figures.divergence,
+                                          figures.divergence.*kind.values, kind.factor));
   plot.description =
-      "Difference of the two trajectories, which start at the same pose. There is no reference: which of them is "
-      "right, this can't tell.";
+      "Difference of the two trajectories, which start at the same pose. There is no reference, so this does not say "
+      "which of them is right.";
   return plot;
 }
 
@@ -208,7 +267,8 @@ inline Plot label_plot(const RunRecord& run) {
 }
 
 /// All plots over time that have something to show.
-inline std::vector<Plot> report_plots(const RunRecord& run, const Figures& figures) {
+inline std::vector<Plot> report_plots(const RunRecord& run, const Figures& figures,
+                                      const std::vector<MoverHistory>& movers) {
   std::vector<Plot> plots;
   for (const detail::ErrorKind& kind : {detail::kPositions, detail::kRotations}) {
     if (figures.filtered.ate_rmse_m || figures.unfiltered.ate_rmse_m)
@@ -216,6 +276,7 @@ inline std::vector<Plot> report_plots(const RunRecord& run, const Figures& figur
     else if (!run.ground_truth && !figures.divergence.timestamps_s.empty())
       plots.push_back(divergence_plot(run, figures, kind));
   }
+  if (!movers.empty()) plots.push_back(speed_plot(run, movers));
   plots.push_back(kept_plot(run, figures));
   if (run.has_labels) plots.push_back(label_plot(run));
   if (run.has_stages) plots.push_back(time_plot(run));

@@ -14,6 +14,7 @@
 #include "explanations.hpp"
 #include "figures.hpp"
 #include "html.hpp"
+#include "mover_history.hpp"
 #include "options.hpp"
 #include "words.hpp"
 
@@ -103,8 +104,20 @@ inline std::string label_table(const RunRecord& run) {
   return table.html();
 }
 
+inline std::string mover_table(const RunRecord& run, const std::vector<MoverHistory>& movers) {
+  Table table("Movers: seen from, to, in so many frames; greatest speed", {"", "from, s", "to, s", "frames", "m/s"});
+  for (const MoverHistory& mover : movers) {
+    std::size_t last = mover.last_frame;
+    while (mover.in(last) == nullptr || mover.in(last)->state == stillpoint::MoverState::lost) --last;
+    table.row(mover.name(), {stillpoint::format_fixed(run.frames[mover.first_frame].time_s, 2),
+                             stillpoint::format_fixed(run.frames[last].time_s, 2), std::to_string(mover.seen_frames),
+                             stillpoint::format_fixed(mover.greatest_speed_m_s, 2)});
+  }
+  return table.html();
+}
+
 inline std::string time_table(const Figures& figures) {
-  Table table("Time a frame, ms", {"", "median", "95 % below", "maximum"});
+  Table table("Time per frame, ms", {"", "median", "p95", "maximum"});
   const auto meaning_of = [](const std::string& name) -> std::string {
     for (std::size_t s = 0; s < stillpoint::kStageCount; ++s)
       if (const auto stage = static_cast<stillpoint::Stage>(s); name == to_string(stage)) return explained(stage);
@@ -136,7 +149,7 @@ inline std::string detector_table(const Options& options, const DetectorRecord& 
   table.row("answered", {std::to_string(frames.detected)});
   table.row("failed", {std::to_string(frames.failed)});
   if (figures.detection_ms)
-    table.row("time of an answer", {stillpoint::format_fixed(figures.detection_ms->median, 1) + " ms; 95 % below " +
+    table.row("time of an answer", {stillpoint::format_fixed(figures.detection_ms->median, 1) + " ms; p95 " +
                                     stillpoint::format_fixed(figures.detection_ms->p95, 1) + " ms"});
   if (!detector.last_error.empty()) table.row("last error", {detector.last_error});
   return table.html();
@@ -160,10 +173,12 @@ inline std::string settings_table(const Options& options) {
 }  // namespace detail
 
 /// All tables, those without content left out.
-inline std::string report_tables(const Options& options, const RunRecord& run, const Figures& figures) {
+inline std::string report_tables(const Options& options, const RunRecord& run, const Figures& figures,
+                                 const std::vector<MoverHistory>& movers) {
   std::string html;
   if (run.has_backend) html += detail::trajectory_table(figures);
   if (run.has_labels) html += detail::label_table(run);
+  if (!movers.empty()) html += detail::mover_table(run, movers);
   if (run.detector) html += detail::detector_table(options, *run.detector, figures);
   return html + detail::time_table(figures) + detail::status_table(figures) + detail::settings_table(options);
 }

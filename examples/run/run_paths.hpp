@@ -2,25 +2,37 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The trajectories of a run as they are drawn: each laid on the reference, in axes to the right, ahead and up.
+// What a run has to draw in its maps: trajectories, each laid on the reference, and the paths of movers, in axes to the
+// right, ahead and up.
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "figures.hpp"
 #include "map_view.hpp"
+#include "mover_history.hpp"
 
 namespace stillpoint_run {
 
 /// One line of the maps.
 struct DrawnPath {
-  const char* name;                                           ///< as the legend has it
-  const char* css_class;                                      ///< also its name in the page's data
-  std::vector<stillpoint::Vector3d> points;                   ///< metres to the right, ahead, up; in the order of time
-  std::vector<std::optional<stillpoint::Vector3d>> of_frame;  ///< where it was in each frame of the run
+  std::string name;                          ///< as the legend has it
+  std::string css_class;                     ///< colour and dash
+  std::string key;                           ///< its name in the page's data
+  std::vector<stillpoint::Vector3d> points;  ///< metres to the right, ahead, up; in the order of time; NaN is a gap
+  std::vector<std::optional<stillpoint::Vector3d>> of_frame = {};  ///< where it was in each frame; empty: not followed
+};
+
+/// All that the maps show.
+struct DrawnPaths {
+  std::vector<DrawnPath> trajectories;  ///< those that there are, the one that is drawn last behind
+  std::vector<DrawnPath> map;           ///< of a tracker with a map: keyframes, loops, the path before them
+  std::vector<DrawnPath> movers;        ///< one for each of `MoverHistory`, in their order
 };
 
 namespace detail {
@@ -70,22 +82,78 @@ inline std::vector<double> timestamps_of(const stillpoint::Trajectory& path) {
 
 }  // namespace detail
 
-/// Those that there are, the one that is drawn last behind.
-inline std::vector<DrawnPath> drawn_paths(const RunRecord& run, const Figures& figures) {
-  const stillpoint::Trajectory truth = detail::reference_path(run);
-  const MapView axes(truth.empty() ? run.filtered : truth);
+namespace detail {
+
+/// Between two pieces of a path; a lone point is a dot.
+inline stillpoint::Vector3d gap_in_path() {
+  return stillpoint::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Keyframes and loops lie on the trajectory; what was known at the time shows what the loops have moved.
+inline std::vector<DrawnPath> drawn_map(const MapFiles& map, const MapView& axes, const stillpoint::Trajectory& path,
+                                        const stillpoint::Trajectory& live) {
+  const auto position = [&](double timestamp_s) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 0; i < path.size(); ++i)
+      if (std::abs(path[i].timestamp_s - timestamp_s) < std::abs(path[nearest].timestamp_s - timestamp_s)) nearest = i;
+    return axes(path[nearest].world_from_camera.translation());
+  };
+  if (path.empty()) return {};
   std::vector<DrawnPath> paths;
+  DrawnPath keyframes{"keyframes: " + std::to_string(map.keyframes.size()), "keyframes", "", {}};
+  for (const double timestamp_s : map.keyframes)
+    keyframes.points.insert(keyframes.points.end(), {position(timestamp_s), gap_in_path()});
+  paths.push_back(std::move(keyframes));
+  if (map.loops.empty()) return paths;
+  DrawnPath loops{"loops closed: " + std::to_string(map.loops.size()), "loops", "", {}};
+  for (const auto& [place, keyframe] : map.loops)
+    loops.points.insert(loops.points.end(), {position(place), position(keyframe), gap_in_path()});
+  DrawnPath before{"as it was known at the time, before loops", "before_loops", "", {}};
+  for (const auto& pose : live) before.points.push_back(axes(pose.world_from_camera.translation()));
+  paths.push_back(std::move(loops));
+  paths.push_back(std::move(before));
+  return paths;
+}
+
+/// Of frames in which the mover is seen and the camera has a pose.
+inline DrawnPath drawn_mover(const MoverHistory& mover, const std::string& css_class, const MapView& axes,
+                             const stillpoint::Trajectory& path,
+                             const std::vector<std::optional<std::size_t>>& pose_of_frame) {
+  DrawnPath drawn{mover.name(), css_class, mover.key(), {}};
+  drawn.of_frame.resize(pose_of_frame.size());
+  for (std::size_t i = mover.first_frame; i <= mover.last_frame; ++i) {
+    const MoverInFrame* const seen = mover.in(i);
+    const bool is_seen = seen != nullptr && seen->state != stillpoint::MoverState::lost && pose_of_frame[i];
+    if (is_seen) drawn.of_frame[i] = axes(path[*pose_of_frame[i]].world_from_camera * seen->centroid);
+    drawn.points.push_back(is_seen ? *drawn.of_frame[i] : gap_in_path());
+  }
+  return drawn;
+}
+
+}  // namespace detail
+
+inline DrawnPaths drawn_paths(const RunRecord& run, const Figures& figures, const std::vector<MoverHistory>& movers) {
+  const stillpoint::Trajectory truth = detail::reference_path(run);
+  const stillpoint::Trajectory filtered = detail::in_reference(run, run.filtered, figures.filtered);
+  const MapView axes(truth.empty() ? run.filtered : truth);
+  DrawnPaths paths;
   const auto add = [&](const char* name, const char* css_class, const stillpoint::Trajectory& path) {
     if (path.empty()) return;
-    DrawnPath drawn{name, css_class, {}, {}};
+    DrawnPath drawn{name, css_class, css_class, {}};
     for (const auto& pose : path) drawn.points.push_back(axes(pose.world_from_camera.translation()));
     for (const auto& pose : detail::pose_of_frame(run.frames, detail::timestamps_of(path)))
       drawn.of_frame.push_back(pose ? std::optional(drawn.points[*pose]) : std::nullopt);
-    paths.push_back(std::move(drawn));
+    paths.trajectories.push_back(std::move(drawn));
   };
   add("without the filter", "unfiltered", detail::in_reference(run, run.unfiltered, figures.unfiltered));
-  add("with the filter", "filtered", detail::in_reference(run, run.filtered, figures.filtered));
+  add("with the filter", "filtered", filtered);
   add("reference", "truth", truth);
+  if (run.map)
+    paths.map = detail::drawn_map(*run.map, axes, filtered, detail::in_reference(run, run.live, figures.filtered));
+  if (filtered.empty()) return paths;
+  const auto pose_of_frame = detail::pose_of_frame(run.frames, detail::timestamps_of(filtered));
+  for (std::size_t m = 0; m < movers.size(); ++m)
+    paths.movers.push_back(detail::drawn_mover(movers[m], mover_class(m), axes, filtered, pose_of_frame));
   return paths;
 }
 

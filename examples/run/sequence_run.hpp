@@ -173,6 +173,9 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     if (output.movers != nullptr) output.movers->write(record);
     output.pictures.add(frame, record, source.camera());
     if (output.video != nullptr) output.video->write(drawing.draw(frame, record, run), record.summary.time_s);
+    for (const auto& [mover, name] : record.movers)
+      run.movers.push_back(
+          {run.frames.size(), mover.id, mover.state, mover.box, mover.centroid, mover.velocity.norm(), name});
     run.frames.push_back(record.summary);
     progress.frame_done();
     run.was_interrupted = was_interrupted();

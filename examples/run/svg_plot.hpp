@@ -22,8 +22,10 @@ namespace stillpoint_run {
 /// A line through points; a point that is not finite breaks it.
 struct Line {
   std::string name;       ///< in the legend
-  std::string css_class;  ///< of report_style.hpp: colour and dash
+  std::string css_class;  ///< of report.css: colour and dash
   std::vector<stillpoint::Vector2d> points;
+  std::string key = {};    ///< of a path in the page's data: a map marks where it is at the moment; empty: no mark
+  std::string label = {};  ///< beside the last point
 };
 
 /// Something of note over a stretch of x, drawn in a strip of its own.
@@ -147,8 +149,9 @@ class PlotDrawing {
       return;
     }
     for (const Line& line : plot_.lines)
-      out += "<circle class=\"now now_" + line.css_class + "\" data-path=\"" + line.css_class +
-             "\" visibility=\"hidden\" r=\"5.5\"/>";
+      if (!line.key.empty())
+        out += "<circle class=\"now now_" + line.css_class + "\" data-path=\"" + escaped(line.key) +
+               "\" visibility=\"hidden\" r=\"5.5\"/>";
   }
 
   /// Heights as they are drawn: of a stack, the sums.
@@ -207,6 +210,11 @@ class PlotDrawing {
       pen_is_down = point.allFinite();
     }
     if (!path.empty()) out += "<path class=\"line " + line.css_class + "\" d=\"" + path + "\"/>";
+    const auto last =
+        std::find_if(line.points.rbegin(), line.points.rend(), [](const auto& p) { return p.allFinite(); });
+    if (!line.label.empty() && last != line.points.rend())
+      out += "<text class=\"at_end\" x=\"" + number(std::min(x_at(last->x()) + 6, kRight - 14)) + "\" y=\"" +
+             number(std::max(y_at(last->y()) - 6, kTop + 14)) + "\">" + escaped(line.label) + "</text>";
   }
 
   void draw_area(std::string& out, std::size_t i) const {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Movers that can be switched off when the program runs: one filter to compile in place of two.
+// The filter with movers whose options are in no file: one filter to compile, whether the program follows them or not.
 
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/movers/mover_tracking.hpp"
@@ -15,13 +15,12 @@ struct SwitchedMovers {
   using Needs = stillpoint::MoverTracking::Needs;
 
   stillpoint::MoverTracking tracking;
-  bool is_on = true;
 
   template <class Camera>
   void track(const stillpoint::FrameView& frame, const stillpoint::Observations& observations,
              const stillpoint::Motion& motion, const Camera& camera, stillpoint::span<const stillpoint::Label> labels,
              stillpoint::Movers& result, stillpoint::Workspace& workspace) {
-    if (is_on) tracking.track(frame, observations, motion, camera, labels, result, workspace);
+    tracking.track(frame, observations, motion, camera, labels, result, workspace);
   }
   void reset() { tracking.reset(); }
 };

@@ -38,24 +38,24 @@ inline std::string count_words(std::size_t count, const char* noun) {
 namespace detail {
 
 inline std::string trajectory_words(const RunRecord& run, const Figures& figures) {
-  if (!run.has_backend) return "No tracker ran behind the filter, so that there is no trajectory.";
+  if (!run.has_backend) return "No tracker ran behind the filter, so there is no trajectory.";
   const auto &with = figures.filtered.ate_rmse_m, &without = figures.unfiltered.ate_rmse_m;
   if (with && without)
-    return "With the filter the trajectory is off by " + length_words(*with) + ", without it by " +
+    return "With the filter the trajectory is off by " + length_words(*with) + " (ATE), without it by " +
            length_words(*without) + ".";
-  if (with) return "With the filter the trajectory is off by " + length_words(*with) + ".";
-  if (without) return "Without the filter the trajectory is off by " + length_words(*without) + ".";
+  if (with) return "With the filter the trajectory is off by " + length_words(*with) + " (ATE).";
+  if (without) return "Without the filter the trajectory is off by " + length_words(*without) + " (ATE).";
   if (run.ground_truth) return "There are too few poses to compare the trajectories with the reference.";
-  const std::string unknown = "There is no reference, so that nobody knows how far the trajectory is off";
+  const std::string unknown = "There is no reference, so the error of the trajectory is not known";
   if (!figures.divergence_max_m) return unknown + ".";
-  return unknown + "; those with and without the filter part by up to " + length_words(*figures.divergence_max_m) + ".";
+  return unknown + "; with and without the filter it differs by up to " + length_words(*figures.divergence_max_m) + ".";
 }
 
 inline std::string label_words(const RunRecord& run) {
   const auto recall = run.labels.recall(), false_alarms = run.labels.false_alarms();
   if (!recall && !false_alarms) return "";
   std::string words;
-  if (recall) words += "Of the features on things that moved it dropped " + percent_words(*recall);
+  if (recall) words += "Of the features on moving objects it dropped " + percent_words(*recall);
   if (false_alarms)
     words += (recall ? ", of those on the background " : "Of the features on the background it dropped ") +
              percent_words(*false_alarms);
@@ -69,12 +69,11 @@ inline std::string detector_words(const Options& options, const DetectorRecord& 
                       ") answered on " + std::to_string(frames.detected) + " of " +
                       count_words(frames.offered, "frame");
   if (figures.detection_ms)
-    words += ", in " + stillpoint::format_fixed(figures.detection_ms->median, 0) + " ms (95 % below " +
+    words += ", in " + stillpoint::format_fixed(figures.detection_ms->median, 0) + " ms (p95 " +
              stillpoint::format_fixed(figures.detection_ms->p95, 0) + " ms)";
-  if (frames.replaced > 0)
-    words += "; " + count_words(frames.replaced, "frame") + " gave way to a newer one before it was free";
+  if (frames.replaced > 0) words += "; it skipped " + count_words(frames.replaced, "frame") + " while it was busy";
   if (frames.failed > 0)
-    words += "; it failed on " + count_words(frames.failed, "frame") + ", at last with: " + detector.last_error;
+    words += "; it failed on " + count_words(frames.failed, "frame") + ", the last time with: " + detector.last_error;
   return words + '.';
 }
 
@@ -110,15 +109,14 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
   else
     first += dropped == 0 ? "no feature was dropped."
                           : percent_words(static_cast<double>(dropped) / static_cast<double>(figures.features)) +
-                                " of the features were dropped" +
-                                (is_oracle ? ", as the labels say." : " as moving or not to be trusted.");
+                                " of the features were dropped" + (is_oracle ? ", as the labels say." : ".");
   result.push_back(first);
   result.push_back(detail::trajectory_words(run, figures));
   for (const std::string& assumption : run.assumptions) result.push_back(assumption);
   if (run.missing_files > 0)
     result.push_back(count_words(run.missing_files, "image") + " that the sequence's lists name " +
                      (run.missing_files == 1 ? "is" : "are") + " missing: the frames were left out.");
-  if (run.was_interrupted) result.push_back("It was interrupted: later frames were not looked at.");
+  if (run.was_interrupted) result.push_back("The run was interrupted: later frames were not filtered.");
   const std::string labels = detail::label_words(run);
   if (!labels.empty()) result.push_back(labels);
   if (run.detector) result.push_back(detail::detector_words(options, *run.detector, figures));
@@ -128,8 +126,8 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
         "a network it drops nothing.");
   if (options.policies == "monocular")
     result.push_back(
-        "Without depth nothing is in metres, and what moves along its epipolar line is found inside boxes at most: "
-        "--prior boxes or a network helps.");
+        "Without depth nothing is in metres, and objects that move along their epipolar lines are found inside boxes "
+        "only: --prior boxes or a network helps.");
   if (const std::size_t unjudged = detail::unjudged_frames(run); unjudged > 0)
     result.push_back(count_words(unjudged, "frame") + " after the first could not be judged, and all features of " +
                      (unjudged == 1 ? "it" : "them") + " were kept" +

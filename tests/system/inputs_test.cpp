@@ -169,7 +169,7 @@ TEST_F(Inputs, ImagesAloneRunOnAGuessedCameraAndSaySo) {
   write_pair(11);
   expect_run("--images " + quoted(left));
   EXPECT_TRUE(says("a horizontal field of view of 60 degrees is assumed (--camera)")) << said;
-  EXPECT_TRUE(says("30 frames a second are assumed (--fps)")) << said;
+  EXPECT_TRUE(says("30 frames per second are assumed (--fps)")) << said;
   EXPECT_TRUE(says("Without depth nothing is in metres")) << said;
   EXPECT_EQ(report()["policies"], "monocular");
   EXPECT_NE(page().find("field of view of 60 degrees"), std::string::npos);
@@ -269,7 +269,7 @@ TEST_F(Inputs, CtrlCAndAPoliteKillEndARunWithItsReport) {
     EXPECT_TRUE(report()["interrupted"]);
     EXPECT_LT(report()["frames"], 60);
     EXPECT_GE(report()["frames"], 1);
-    EXPECT_NE(read_text(folder / "said").find("It was interrupted"), std::string::npos);
+    EXPECT_NE(read_text(folder / "said").find("The run was interrupted"), std::string::npos);
   }
 }
 

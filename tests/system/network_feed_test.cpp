@@ -68,7 +68,7 @@ TEST(NetworkFeed, GoesOnWhereTheNetworkFails) {
   EXPECT_EQ(report["detector"]["last_error"], "call 5 is too much");
   const std::string words = detail::detector_words(options, *run.detector, figures);
   EXPECT_NE(words.find("answered on 2 of 5 frames"), std::string::npos) << words;
-  EXPECT_NE(words.find("it failed on 3 frames, at last with: call 5 is too much"), std::string::npos) << words;
+  EXPECT_NE(words.find("it failed on 3 frames, the last time with: call 5 is too much"), std::string::npos) << words;
 }
 
 TEST(NetworkFeed, InAThreadFailsNobodyElse) {

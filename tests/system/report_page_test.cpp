@@ -45,6 +45,21 @@ window.addEventListener("load", () => setTimeout(() => {
   const ink = document.getElementById("drawing").getContext("2d").getImageData(0, 0, 600, 400).data;
   tell("drawn", ink.some((value) => value > 0));
 
+  // A mover of the last frame is drawn, named, and marked on its map.
+  slide(Number(slider.max));
+  const pixels = () => {
+    const canvas = document.getElementById("drawing");
+    return canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.join();
+  };
+  const withMovers = pixels();
+  document.getElementById("show_movers").click();
+  tell("mover drawn", pixels() !== withMovers);
+  document.getElementById("show_movers").click();
+  tell("mover named", /id 1 [0-9.]+ m\/s/.test(document.getElementById("status").textContent));
+  const trail = document.querySelector('.now[data-path="mover 1"]'), placed = trail.getAttribute("transform");
+  slide(Number(slider.max) - 1);
+  tell("mover's mark moves", trail.getAttribute("transform") !== placed);
+
   // Each plot marks the moment: where the last and the first frame are.
   const places = () => [...document.querySelectorAll("svg.chart .now")].map((mark) => mark.getAttribute("transform"));
   slide(0);
@@ -138,7 +153,10 @@ const std::string kAsExpected =
     "status: true\n"
     "reasons: true\n"
     "drawn: true\n"
-    "plots: 7\n"
+    "mover drawn: true\n"
+    "mover named: true\n"
+    "mover's mark moves: true\n"
+    "plots: 9\n"
     "marks that stay: 0\n"
     "marks hidden: 0\n"
     "Home: 0\n"
@@ -150,6 +168,8 @@ const std::string kAsExpected =
     "plot over time: 5 to 0\n"
     "plot over time: 5 to 0\n"
     "plot over time: 5 to 0\n"
+    "plot over time: 5 to 0\n"
+    "map: 4\n"
     "map: 4\n"
     "map: 4\n"
     "turned: 0.100\n"

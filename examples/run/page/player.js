@@ -93,6 +93,36 @@ function drawBox(paper, box, scale) {
   paper.fillText(box.name, ...at);
 }
 
+const moverColours = ["#ff7ad9", "#30e0d0", "#ffb03a", "#b9a3ff", "#d4f24a", "#ff9c8f"];  // of report.css's --mover0 …
+
+/// The movers that a frame has: [mover, what is known of it then].
+function moversIn(frame) {
+  return run.movers.map((mover) => [mover, mover.seen[frame - mover.from]]).filter(([, seen]) => seen);
+}
+
+/// As in "id 2 (person) 1.1 m/s".
+const moverLabel = (mover, [, , , , speed, state]) =>
+  `${mover.name} ${state === "moving" ? `${speed.toFixed(1)} m/s` : state}`;
+
+function drawMoverBox(paper, mover, seen, scale) {
+  paper.strokeStyle = moverColours[mover.colour];
+  paper.lineWidth = 2.5;
+  paper.setLineDash(seen[5] === "lost" ? [4, 5] : []);
+  paper.strokeRect(...seen.slice(0, 4).map((value) => value * scale));
+  paper.setLineDash([]);
+}
+
+function drawMoverLabel(paper, mover, seen, scale) {
+  const [x, y] = seen.slice(0, 2).map((value) => value * scale);
+  paper.font = "600 13px system-ui, sans-serif";
+  const text = moverLabel(mover, seen), wide = paper.measureText(text).width + 10;
+  const left = Math.max(0, Math.min(x - 1, paper.canvas.clientWidth - wide)), top = Math.max(0, y - 20);
+  paper.fillStyle = moverColours[mover.colour];
+  paper.fillRect(left, top, wide, 20);
+  paper.fillStyle = "#141414";
+  paper.fillText(text, left + 5, top + 14.5);
+}
+
 function draw() {
   const canvas = byId("drawing"), width = canvas.clientWidth, height = canvas.clientHeight;
   if (!picture || !width) return;
@@ -104,6 +134,11 @@ function draw() {
   if (byId("show_boxes").checked) for (const box of picture.boxes) drawBox(paper, box, scale);
   paper.lineWidth = 1.3;
   if (byId("show_features").checked) for (const feature of features) drawFeature(paper, feature, scale);
+  if (byId("show_movers").checked) {
+    const movers = moversIn(picture.frame);
+    for (const [mover, seen] of movers) drawMoverBox(paper, mover, seen, scale);
+    for (const [mover, seen] of movers) drawMoverLabel(paper, mover, seen, scale);
+  }
   if (!pointed) return;
   paper.strokeStyle = "#fff";
   paper.lineWidth = 2;
@@ -158,7 +193,7 @@ function listReasons() {
 }
 
 /// Status and warnings with what they mean.
-function describe(frame) {
+function describe(frame, index) {
   const status = byId("status");
   status.replaceChildren();
   const line = (name, meaning) => {
@@ -169,10 +204,12 @@ function describe(frame) {
                 `${frame.ms > 0 ? `, ${frame.ms.toFixed(1)} ms` : ""}. `);
   line(frame.status, run.terms.statuses[frame.status]);
   for (const warning of frame.warnings) line(warning, run.terms.warnings[warning]);
+  const movers = moversIn(index).map(([mover, seen]) => moverLabel(mover, seen));
+  if (movers.length) line("Movers:", `${movers.join(", ")}.`);
 }
 
 listeners.push((index) => {
-  describe(run.frames[index]);
+  describe(run.frames[index], index);
   const next = pictureOf(index);
   if (next === picture || !next) return;
   picture = next;
@@ -186,5 +223,5 @@ listeners.push((index) => {
 byId("picture").addEventListener("load", draw);
 byId("drawing").addEventListener("pointermove", pointAt);
 byId("drawing").addEventListener("pointerdown", pointAt);
-for (const name of ["features", "boxes", "offsets"]) byId(`show_${name}`).addEventListener("change", draw);
+for (const name of ["features", "boxes", "offsets", "movers"]) byId(`show_${name}`).addEventListener("change", draw);
 window.addEventListener("resize", draw);

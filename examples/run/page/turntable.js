@@ -96,7 +96,8 @@ function makeTurntable(canvas) {
   });
   canvas.addEventListener("pointerup", (event) => {
     const box = canvas.getBoundingClientRect();
-    if (pressed && pressed.moved < 4) show(nearestFrame([event.clientX - box.left, event.clientY - box.top], project));
+    if (pressed && pressed.moved < 4) show(nearestFrame([event.clientX - box.left, event.clientY - box.top], project,
+                                                            Object.values(run.paths)));
     pressed = null;
   });
   canvas.addEventListener("pointercancel", () => { pressed = null; });

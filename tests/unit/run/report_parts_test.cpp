@@ -12,7 +12,10 @@
 
 #include "run/feature_bytes.hpp"
 #include "run/moments.hpp"
+#include "run/mover_history.hpp"
 #include "run/picture_roll.hpp"
+#include "run/report_plots.hpp"
+#include "run/run_paths.hpp"
 
 namespace stillpoint_run::report_parts_test {
 namespace {
@@ -144,6 +147,76 @@ TEST(Moments, AreWhereSomethingHappened) {
   EXPECT_NE(reasons_at(found, 8)[0].find("median score -0.50"), std::string::npos);
   EXPECT_EQ(reasons_at(found, 9), std::vector<std::string>{"greatest error without the filter: 4.00 m"});
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LT(found[i - 1].frame, found[i].frame);
+}
+
+MoverInFrame mover_in(std::size_t frame, std::uint32_t id, double speed_m_s,
+                      stillpoint::MoverState state = stillpoint::MoverState::moving) {
+  MoverInFrame seen;
+  seen.frame = frame;
+  seen.id = id;
+  seen.state = state;
+  seen.centroid = Vector3d(0, 0, 2);
+  seen.speed_m_s = speed_m_s;
+  seen.class_name = "unknown";
+  return seen;
+}
+
+/// Five frames in which the camera goes 1 m to the right each; two movers stay 2 m ahead of it.
+RunRecord run_with_movers() {
+  RunRecord run;
+  for (int i = 0; i < 5; ++i) {
+    FrameSummary frame;
+    frame.timestamp_s = frame.time_s = i;
+    run.frames.push_back(frame);
+    Pose world_from_camera = Pose::Identity();
+    world_from_camera.translation().x() = i;
+    run.filtered.push_back({static_cast<double>(i), world_from_camera});
+  }
+  run.movers = {mover_in(1, 2, 0.5), mover_in(1, 7, 1.0), mover_in(2, 2, 0.9),
+                mover_in(3, 2, 9.0, stillpoint::MoverState::lost), mover_in(4, 2, 0.4)};
+  run.movers[2].class_name = "person";
+  return run;
+}
+
+TEST(MoverHistory, GathersWhatIsKnownOfEach) {
+  const RunRecord run = run_with_movers();
+  const std::vector<MoverHistory> movers = mover_histories(run);
+  ASSERT_EQ(movers.size(), 2u);
+  EXPECT_EQ(movers[0].name(), "id 2 (person)");
+  EXPECT_EQ(movers[0].first_frame, 1u);
+  EXPECT_EQ(movers[0].last_frame, 4u);
+  EXPECT_EQ(movers[0].seen_frames, 3u);
+  EXPECT_EQ(movers[0].greatest_speed_m_s, 0.9) << "what is predicted counts for nothing";
+  EXPECT_EQ(movers[1].name(), "id 7");
+  EXPECT_EQ(movers[1].in(2), nullptr);
+  const std::vector<MoverHistory> longest = mover_histories(run, 1);
+  ASSERT_EQ(longest.size(), 1u);
+  EXPECT_EQ(longest[0].id, 2u);
+}
+
+TEST(DrawnPaths, MoversAreWhereTheCameraSawThem) {
+  RunRecord run = run_with_movers();
+  run.map = MapFiles{"", "", {0.0, 3.0}, {{0.0, 3.0}}};
+  run.live = run.filtered;
+  const DrawnPaths paths = drawn_paths(run, Figures(), mover_histories(run));
+  ASSERT_EQ(paths.movers.size(), 2u);
+  const DrawnPath& path = paths.movers[0];
+  ASSERT_EQ(path.of_frame.size(), 5u);
+  EXPECT_FALSE(path.of_frame[0]);
+  ASSERT_TRUE(path.of_frame[2]);
+  EXPECT_LT((*path.of_frame[2] - Vector3d(2, 2, 0)).norm(), 1e-12) << "to the right, ahead, up";
+  EXPECT_FALSE(path.of_frame[3]) << "lost";
+  EXPECT_EQ(path.points.size(), 4u);
+  EXPECT_FALSE(path.points[2].allFinite()) << "a gap";
+
+  ASSERT_EQ(paths.map.size(), 3u) << "keyframes, loops, the path before them";
+  EXPECT_LT((paths.map[0].points[2] - Vector3d(3, 0, 0)).norm(), 1e-12) << "the second keyframe";
+  EXPECT_LT((paths.map[1].points[1] - Vector3d(3, 0, 0)).norm(), 1e-12) << "where the loop ends";
+  const std::string from_above = figure_of(map_plot(paths, {0, 1})), aside = figure_of(map_plot(paths, {1, 2}));
+  EXPECT_NE(from_above.find("loops closed: 1"), std::string::npos);
+  EXPECT_EQ(from_above.find("data-path=\"\""), std::string::npos) << "what is not followed has no mark";
+  EXPECT_EQ(aside.find("loops closed"), std::string::npos);
+  EXPECT_NE(figure_of(movers_map(paths)).find("data-path=\"mover 7\""), std::string::npos);
 }
 
 }  // namespace
