@@ -10,6 +10,7 @@
 #include <mutex>
 #include <string>
 
+#include "stillpoint/policies/with_movers.hpp"
 #include "stillpoint/stillpoint.hpp"
 
 namespace stillpoint_python {
@@ -20,7 +21,7 @@ namespace py = pybind11;
 /// meanwhile.
 class Filter {
  public:
-  explicit Filter(const stillpoint::Camera& camera) : filter_(camera) {}
+  Filter(const stillpoint::Camera& camera, bool has_movers) : filter_(camera) { filter_.movers.is_on = has_movers; }
 
   /// Calls `use(filter)` without the interpreter's lock: nothing of Python may be touched in it.
   template <class Use>
@@ -30,9 +31,18 @@ class Filter {
     return use(filter_);
   }
 
+  /// As `without_gil`, for what visits options: a filter without movers has none of theirs, so that its files are those
+  /// of any other.
+  template <class Use>
+  decltype(auto) with_options(Use&& use) {
+    return without_gil([&](stillpoint::FrameFilter<stillpoint::WithMovers<>>& filter) -> decltype(auto) {
+      return filter.movers.is_on ? use(filter) : use(static_cast<stillpoint::FrameFilter<>&>(filter));
+    });
+  }
+
  private:
   std::mutex mutex_;
-  stillpoint::FrameFilter<> filter_;
+  stillpoint::FrameFilter<stillpoint::WithMovers<>> filter_;
 };
 
 /// The member of an enum of the module, such as Status, for a value of the library.
@@ -42,8 +52,12 @@ py::object member(const char* name, Enum value) {
 }
 
 void bind_filter(py::module_& module);
+void bind_movers(py::module_& module);
 void bind_options(py::module_& module);
 void bind_evaluation(py::module_& module);
+
+/// `FrameResult.movers`; each of them keeps the result.
+py::tuple movers_of(const std::shared_ptr<const stillpoint::FrameResult>& frame);
 
 /// `FrameFilter.options`.
 py::object options_of(const std::shared_ptr<Filter>& filter);

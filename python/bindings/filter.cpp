@@ -29,7 +29,7 @@ using stillpoint::ImageBuffer;
 
 /// A copy of a frame's result, with its features as arrays of their own.
 struct Result {
-  explicit Result(FrameResult copy) : frame(std::move(copy)) {
+  explicit Result(FrameResult copy) : shared(std::make_shared<const FrameResult>(std::move(copy))), frame(*shared) {
     const std::size_t size = frame.size();
     std::vector<float> weight;
     stillpoint::weights(frame, weight);
@@ -41,10 +41,15 @@ struct Result {
     clusters = array_of<std::int32_t>(size, [&](std::size_t i) { return frame.label(i).cluster; });
     depths_m = array_of<double>(size, [&](std::size_t i) { return frame.depth_m(i); });
     weights = array_of<float>(size, [&](std::size_t i) { return weight[i]; });
+    mover_of = array_of<std::int32_t>(
+        size, [&](std::size_t i) { return frame.mover(i) == nullptr ? -1 : frame.mover(i) - frame.movers().data(); });
+    movers = movers_of(shared);
   }
 
-  FrameResult frame;
-  py::array keep, verdicts, reasons, scores, probabilities, clusters, depths_m, weights;
+  std::shared_ptr<const FrameResult> shared;
+  const FrameResult& frame;
+  py::array keep, verdicts, reasons, scores, probabilities, clusters, depths_m, weights, mover_of;
+  py::tuple movers;
 };
 
 py::array mask_of(const Result& result, int radius_px) {
@@ -77,13 +82,14 @@ std::string result_text(const Result& result) {
 }
 
 Detection detection_of(float x, float y, float width, float height, int mobility, float confidence,
-                       const py::object& mask) {
+                       const py::object& mask, std::int16_t class_index) {
   if (mobility < 0 || mobility > static_cast<int>(stillpoint::Mobility::dynamic))
     throw stillpoint::Error("mobility is " + std::to_string(mobility) + ", expected a stillpoint.Mobility");
   Detection detection;
   detection.box = {x, y, width, height};
   detection.mobility = static_cast<stillpoint::Mobility>(mobility);
   detection.confidence = confidence;
+  detection.class_index = class_index;
   if (mask.is_none()) return detection;
   const std::string expected = "a NumPy array of bool or uint8 with shape (rows, columns)";
   const py::array cells = as_array(mask, "mask", expected);
@@ -172,6 +178,9 @@ void bind_result(py::module_& module) {
       .def_readonly("weights", &Result::weights, "Its weight in an estimate of the pose, 0 to 1.")
       .def_readonly("clusters", &Result::clusters, "Index of its cluster, -1 for none.")
       .def_readonly("depths_m", &Result::depths_m, "Its depth in metres, 0 for none.")
+      .def_readonly("movers", &Result::movers,
+                    "The objects that move, or moved and are parked; empty without FrameFilter(camera, movers=True).")
+      .def_readonly("mover_of", &Result::mover_of, "Index in movers of the object that the feature is on, -1 for none.")
       .def_property_readonly("status", [](const Result& result) { return member("Status", result.frame.status()); })
       .def_property_readonly("warnings", &warnings_of, "What is worth knowing beside the status.")
       .def_property_readonly(
@@ -202,13 +211,15 @@ void bind_filter(py::module_& module) {
       "stretched over it.")
       .def(py::init(&detection_of), py::arg("x"), py::arg("y"), py::arg("width"), py::arg("height"),
            py::arg("mobility") = static_cast<int>(stillpoint::Mobility::dynamic), py::arg("confidence") = 1.0f,
-           py::arg("mask") = py::none());
+           py::arg("mask") = py::none(), py::arg("class_index") = -1);
 
   py::class_<Filter, std::shared_ptr<Filter>>(module, "FrameFilter",
                                               "Tells which of a frame's features stand still, with DefaultPolicies. "
                                               "One filter for one camera. Threads may share\n"
                                               "it: calls wait for each other, and other threads run meanwhile.")
-      .def(py::init<const stillpoint::Camera&>(), py::arg("camera"))
+      .def(py::init<const stillpoint::Camera&, bool>(),
+           "With movers, results also say which objects move, and how (docs/movers.md).", py::arg("camera"),
+           py::arg("movers") = false)
       .def("filter_frame", &filter_frame,
            "Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time.\n\n"
            "image         uint8, (height, width) gray or (height, width, 3) BGR; not copied\n"
@@ -243,13 +254,13 @@ void bind_filter(py::module_& module) {
       .def(
           "read_options",
           [](Filter& self, const std::filesystem::path& file) {
-            self.without_gil([&](stillpoint::FrameFilter<>& filter) { stillpoint::read_options(file, filter); });
+            self.with_options([&](auto& filter) { stillpoint::read_options(file, filter); });
           },
           "Sets the options that a YAML file names; the others stay.", py::arg("file"))
       .def(
           "write_options",
           [](Filter& self, const std::filesystem::path& file) {
-            self.without_gil([&](stillpoint::FrameFilter<>& filter) { stillpoint::write_options(file, filter); });
+            self.with_options([&](auto& filter) { stillpoint::write_options(file, filter); });
           },
           "Writes all options as YAML.", py::arg("file"));
 }

@@ -47,6 +47,8 @@ void add_enums(py::module_& module) {
            "What a feature is, as far as can be told.");
   add_enum(module, "Mobility", py::cast(std::vector<std::string>{"unknown", "fixed", "movable", "dynamic"}),
            "What is known of an object's class: a wall is fixed, a chair is movable, a person is dynamic.");
+  add_enum(module, "MoverState", py::cast(std::vector<std::string>{"moving", "parked", "lost"}),
+           "What an object that was seen to move does now.");
 }
 
 stillpoint::AnyDistortion lens(const std::string& model, const std::vector<double>& k) {
@@ -119,6 +121,7 @@ PYBIND11_MODULE(_core, module) {
   bind_camera(module);
   bind_options(module);
   bind_filter(module);
+  bind_movers(module);
   bind_evaluation(module);
   module.attr("__name__") = own_name;
 }

@@ -23,6 +23,7 @@
 #include "stillpoint/match/patch_matcher.hpp"
 #include "stillpoint/memory/evidence_memory.hpp"
 #include "stillpoint/motion/rigid/support_motion.hpp"
+#include "stillpoint/movers/mover_tracking.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/score/reprojection_score.hpp"
@@ -191,7 +192,7 @@ class Options {
     for (const auto& entry : table()) {
       if (entry.first != path_ + name) continue;
       const Value value = value_of(path_ + name, object);
-      return filter_->without_gil([&](stillpoint::FrameFilter<>& filter) {
+      return filter_->with_options([&](auto& filter) {
         SetOption setter(path_ + name, value);
         each_option(filter, setter);
       });
@@ -226,7 +227,7 @@ class Options {
 
  private:
   Table table() const {
-    return filter_->without_gil([](stillpoint::FrameFilter<>& filter) {
+    return filter_->with_options([](auto& filter) {
       Table table;
       ListOptions lister(table);
       each_option(filter, lister);

@@ -9,8 +9,8 @@
 """
 
 from ._core import (Camera, Detection, Error, ErrorStatistics, FilterScore, FrameFilter, FrameResult, FrameWarning, Mobility,
-                    Motion, Options, Reason, Status, TrajectoryError, Verdict, __version__, ate, read_camera, recall, rpe)
+                    Motion, Mover, MoverState, Options, Reason, Status, TrajectoryError, Verdict, __version__, ate, read_camera, recall, rpe)
 
 __all__ = ["Camera", "Detection", "Error", "ErrorStatistics", "FilterScore", "FrameFilter", "FrameResult", "FrameWarning",
-           "Mobility", "Motion", "Options", "Reason", "Status", "TrajectoryError", "Verdict", "__version__", "ate",
-           "read_camera", "recall", "rpe"]
+           "Mobility", "Motion", "Mover", "MoverState", "Options", "Reason", "Status", "TrajectoryError", "Verdict",
+           "__version__", "ate", "read_camera", "recall", "rpe"]

@@ -82,6 +82,13 @@ class Mobility(enum.IntEnum):
     movable = 2
     dynamic = 3
 
+class MoverState(enum.IntEnum):
+    """What an object that was seen to move does now."""
+
+    moving = 0
+    parked = 1
+    lost = 2
+
 class Camera:
     """A camera with focal lengths and principal point in pixels."""
 
@@ -127,6 +134,56 @@ class Motion:
     def inliers(self) -> int:
         """Of them, those that the motion explains."""
 
+class Mover:
+    """An object that moves, or moved and is parked. Vectors are in the axes of the current camera: x right, y down, z
+    forward."""
+
+    @property
+    def id(self) -> int:
+        """From 1 on; kept while the object is seen and for two seconds after."""
+    @property
+    def state(self) -> MoverState:
+        """Moving, parked, or lost: not seen in this frame, all else is predicted."""
+    @property
+    def box(self) -> Tuple[float, float, float, float]:
+        """x, y, width and height around its features, pixels."""
+    @property
+    def centroid(self) -> npt.NDArray[np.float64]:
+        """Of its points, in the current camera, metres."""
+    @property
+    def extent_m(self) -> npt.NDArray[np.float64]:
+        """Of its points along the camera's axes."""
+    @property
+    def velocity(self) -> npt.NDArray[np.float64]:
+        """Of the centroid relative to the world, m/s, by the filter's own motion."""
+    @property
+    def velocity_covariance(self) -> npt.NDArray[np.float64]:
+        """3 x 3, (m/s)²."""
+    @property
+    def current_from_reference(self) -> npt.NDArray[np.float64]:
+        """4 x 4, metres: where a point of the object in the last frame's camera is in the current one."""
+    @property
+    def covariance(self) -> npt.NDArray[np.float64]:
+        """6 x 6, of a small rotation (radians, first three) and translation (metres) after that pose."""
+    @property
+    def has_rotation(self) -> bool:
+        """Its points move rigidly and determine a rotation; otherwise it keeps its orientation in the world."""
+    @property
+    def class_index(self) -> int:
+        """That of the detection that holds most of its features; -1 where none does."""
+    @property
+    def confidence(self) -> float:
+        """Of that detection, 0 to 1."""
+    @property
+    def first_seen_s(self) -> float: ...
+    @property
+    def last_seen_s(self) -> float: ...
+    @property
+    def features(self) -> npt.NDArray[np.int64]:
+        """Indices of its keypoints."""
+    def mask(self, radius_px: int = 12) -> npt.NDArray[np.uint8]:
+        """Of the image's size: 0 within radius_px of its features and of the filter's own corners on it, 255 elsewhere."""
+
 class FrameResult:
     """The answer for one frame: arrays with one entry per keypoint, in their order. It owns them."""
 
@@ -155,6 +212,12 @@ class FrameResult:
     def depths_m(self) -> npt.NDArray[np.float64]:
         """Its depth in metres, 0 for none."""
     @property
+    def movers(self) -> Tuple[Mover, ...]:
+        """The objects that move, or moved and are parked; empty without FrameFilter(camera, movers=True)."""
+    @property
+    def mover_of(self) -> npt.NDArray[np.int32]:
+        """Index in movers of the object that the feature is on, -1 for none."""
+    @property
     def status(self) -> Status: ...
     @property
     def warnings(self) -> Tuple[FrameWarning, ...]:
@@ -182,7 +245,7 @@ class Detection:
 
     def __init__(self, x: float, y: float, width: float, height: float, mobility: int = Mobility.dynamic,
                  confidence: float = 1.0,
-                 mask: Optional[Union[npt.NDArray[np.bool_], npt.NDArray[np.uint8]]] = None) -> None: ...
+                 mask: Optional[Union[npt.NDArray[np.bool_], npt.NDArray[np.uint8]]] = None, class_index: int = -1) -> None: ...
 
 class Options:
     """The options of a filter's stages, by the names in docs/tuning.md: filter.options.gate.false_positive_rate = 0.005.
@@ -198,7 +261,8 @@ class FrameFilter:
     """Tells which of a frame's features stand still, with DefaultPolicies. One filter for one camera. Threads may share
     it: calls wait for each other, and other threads run meanwhile."""
 
-    def __init__(self, camera: Camera) -> None: ...
+    def __init__(self, camera: Camera, movers: bool = False) -> None:
+        """With movers, results also say which objects move, and how (docs/movers.md)."""
     def filter_frame(self, image: npt.NDArray[np.uint8],
                      depth: Optional[Union[npt.NDArray[np.uint16], npt.NDArray[np.float32]]], timestamp_s: float,
                      keypoints: Union[npt.NDArray[np.float32], npt.NDArray[np.float64], Sequence[Any]],

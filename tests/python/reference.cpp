@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // reference FOLDER: writes a rendered sequence in the layout of the TUM benchmark, and what the C++ says of it, bit for
-// bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin and figures.txt. tests/python/test_equal_to_cpp.py calls the same
-// in Python.
+// bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt.
+// tests/python/test_equal_to_cpp.py calls the same in Python.
 
 #include <cstdint>
 #include <cstdio>
@@ -19,6 +19,7 @@
 #include "stillpoint/evaluation/trajectory_error.hpp"
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/trajectory_file.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/stillpoint.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
@@ -28,9 +29,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using stillpoint::FrameResult, stillpoint::ImageBuffer, stillpoint::Pose;
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What test_equal_to_cpp.py does at the same frames.
-constexpr int kFrames = 14, kExpectedAt = 5, kDetectedAt = 6, kOptionAt = 8, kResetAt = 11;
+constexpr int kFrames = 14, kExpectedAt = 5, kDetectedAt = 9, kOptionAt = 8, kResetAt = 11;
 
 /// One keypoint, without gaps, as numpy reads it.
 struct Feature {
@@ -88,12 +90,45 @@ void write_masks(const fs::path& file, const ImageBuffer& predicted, const Frame
 
 /// world_from_camera, the true motion since the last frame, and the filter's, row by row; the status.
 void write_poses(const fs::path& file, const Pose& truth, const Pose& true_motion, const FrameResult& result) {
-  using RowMajor = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
   const RowMajor matrices[3] = {truth.matrix(), true_motion.matrix(), result.motion().current_from_reference.matrix()};
   const double status = static_cast<double>(result.status());
   Bytes bytes(file);
   for (const RowMajor& matrix : matrices) bytes.write(matrix.data(), 16);
   bytes.write(&status, 1);
+}
+
+/// Of each mover all numbers, one after the other; then the index of each keypoint's; then their masks.
+void write_movers(const fs::path& file, const FrameResult& result) {
+  Bytes bytes(file);
+  const auto number = [&](auto value) {
+    const auto written = static_cast<double>(value);
+    bytes.write(&written, 1);
+  };
+  const auto matrix = [&](const RowMajor& values) {
+    bytes.write(values.data(), static_cast<std::size_t>(values.size()));
+  };
+  number(result.movers().size());
+  for (const stillpoint::Mover& mover : result.movers()) {
+    number(mover.id);
+    number(mover.state);
+    for (const float value : {mover.box.x, mover.box.y, mover.box.width, mover.box.height}) number(value);
+    for (const stillpoint::Vector3d& vector : {mover.centroid, mover.extent_m, mover.velocity}) matrix(vector);
+    matrix(mover.velocity_covariance);
+    matrix(mover.current_from_reference.matrix());
+    matrix(mover.covariance);
+    number(mover.has_rotation);
+    number(mover.class_index);
+    for (const double value : {static_cast<double>(mover.confidence), mover.first_seen_s, mover.last_seen_s})
+      number(value);
+  }
+  for (std::size_t i = 0; i < result.size(); ++i)
+    number(result.mover(i) == nullptr ? -1 : result.mover(i) - result.movers().data());
+  ImageBuffer mask;
+  for (const stillpoint::Mover& mover : result.movers()) {
+    result.mask(mover, mask);
+    const stillpoint::ImageView view = mask.view();
+    bytes.write(view.data, static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height));
+  }
 }
 
 void write_image(const fs::path& file, const ImageBuffer& image) {
@@ -126,12 +161,15 @@ void run(const fs::path& folder) {
   const stillpoint::Camera& camera = sequence.camera();
   for (const char* const name : {"rgb", "depth", "labels"}) fs::create_directories(folder / name);
   std::ofstream associations(folder / "associations.txt"), camera_yaml(folder / "camera.yaml");
+  std::ofstream colour_list(folder / "rgb.txt"), depth_list(folder / "depth.txt");
   const auto text = [](double value) { return stillpoint::option_text(value); };
   camera_yaml << "fx: " << text(camera.fx()) << "\nfy: " << text(camera.fy()) << "\ncx: " << text(camera.cx())
               << "\ncy: " << text(camera.cy()) << "\nwidth: " << camera.width() << "\nheight: " << camera.height()
               << "\ndepth_factor: " << text(sequence.scene().sensor.depth_factor) << '\n';
 
-  stillpoint::FrameFilter<> filter(camera);
+  stillpoint::FrameFilter<stillpoint::WithMovers<>> filter(camera);
+  filter.movers.options.least_path_m = 0.003;  // of these few frames
+  filter.movers.options.least_path_sigmas = 1;
   stillpoint::SyntheticFrame frame;
   stillpoint::FilterScore score;
   stillpoint::Trajectory truth, estimate;
@@ -147,6 +185,8 @@ void run(const fs::path& folder) {
     write_image(folder / "labels" / (std::string(name) + ".png"), frame.labels);
     const std::string time = stillpoint::format_timestamp(frame.timestamp_s);
     associations << time << " rgb/" << name << ".png " << time << " depth/" << name << ".png\n";
+    colour_list << time << " rgb/" << name << ".png\n";
+    depth_list << time << " depth/" << name << ".png\n";
     std::vector<cv::KeyPoint> keypoints;
     orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
 
@@ -154,8 +194,11 @@ void run(const fs::path& folder) {
     if (i == kResetAt) filter.reset();
     const Pose true_motion = frame.world_from_camera.inverse() * last;
     if (i == kExpectedAt) filter.expect_motion(true_motion);
-    if (i == kDetectedAt)
-      filter.prior.detected(frame.timestamp_s, {{{100, 40, 80, 150}, stillpoint::Mobility::dynamic, 0.9f}});
+    if (i == kDetectedAt) {
+      stillpoint::Detection person{{0, 40, 100, 150}, stillpoint::Mobility::dynamic, 0.9f};
+      person.class_index = 7;
+      filter.prior.detected(frame.timestamp_s, {person});
+    }
     filter.predicted_keep_mask(frame.timestamp_s, 8, predicted);
     const FrameResult& result = filter.filter_frame(
         {frame.gray.view(), stillpoint::DepthView(frame.depth.view(), frame.depth_factor), frame.timestamp_s},
@@ -165,6 +208,7 @@ void run(const fs::path& folder) {
     write_features(folder / ("features_" + std::string(name) + ".bin"), keypoints, result);
     write_masks(folder / ("masks_" + std::string(name) + ".bin"), predicted, result);
     write_poses(folder / ("poses_" + std::string(name) + ".bin"), frame.world_from_camera, true_motion, result);
+    write_movers(folder / ("movers_" + std::string(name) + ".bin"), result);
     std::vector<stillpoint::Vector2f> pixels;
     stillpoint::read_pixels(keypoints, pixels);
     score.add_frame(frame.labels.view(), pixels, result.keep());

@@ -96,6 +96,23 @@ def test_results_own_their_arrays(frames, camera):
     assert mask.shape == frames[0].gray.shape and set(np.unique(mask)) <= {0, 255}
 
 
+def test_movers_keep_their_result(frames, camera):
+    frame_filter = stillpoint.FrameFilter(camera, movers=True)
+    frame_filter.options.movers.least_path_m = 0.003  # of these few frames
+    frame_filter.options.movers.least_path_sigmas = 1
+    for frame in frames[:11]:
+        result = frame_filter.filter_frame(frame.gray, frame.depth, frame.timestamp_s, frame.pixels, 5000)
+    mover = result.movers[0]
+    mask, text = mover.mask(), repr(mover)
+    del frame_filter, result
+    gc.collect()
+    assert np.array_equal(mover.mask(), mask) and (mask == 0).any() and repr(mover) == text
+    assert text.startswith("<Mover 1: moving, at (") and text.endswith(" m/s>")
+    assert mover.state is stillpoint.MoverState.moving
+    with pytest.raises(AttributeError):
+        mover.id = 2
+
+
 def test_bgr_and_keypoints_of_any_form(frames, camera, expected):
     bgr = run(frames[:4], camera, lambda f: dict(image=cv2.cvtColor(f.gray, cv2.COLOR_GRAY2BGR)))
     assert same(expected, bgr)

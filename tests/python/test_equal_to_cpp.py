@@ -14,7 +14,7 @@ import stillpoint
 from conftest import read_frames
 
 # tests/python/reference.cpp does the same at these frames.
-EXPECTED_AT, DETECTED_AT, OPTION_AT, RESET_AT = 5, 6, 8, 11
+EXPECTED_AT, DETECTED_AT, OPTION_AT, RESET_AT = 5, 9, 8, 11
 FEATURE = np.dtype([("depth_m", "f8"), ("x", "f4"), ("y", "f4"), ("score", "f4"), ("probability", "f4"), ("weight", "f4"),
                     ("cluster", "i4"), ("keep", "u1"), ("verdict", "u1"), ("reason", "u1"), ("padding", "u1", 5)])
 
@@ -25,11 +25,41 @@ def assert_same_bits(found, expected, what):
     assert found.tobytes() == expected.tobytes(), what
 
 
+def numbers_of(mover):
+    """All of a mover but its mask, in the order of reference.cpp."""
+    return np.concatenate([np.ravel(value).astype(np.float64) for value in (
+        mover.id, mover.state, mover.box, mover.centroid, mover.extent_m, mover.velocity, mover.velocity_covariance,
+        mover.current_from_reference, mover.covariance, mover.has_rotation, mover.class_index, mover.confidence,
+        mover.first_seen_s, mover.last_seen_s)])
+
+
+def assert_same_movers(result, file, i):
+    """@return what C++ says that there is in the frame"""
+    content = file.read_bytes()
+    count = int(np.frombuffer(content, np.float64, 1)[0])
+    assert len(result.movers) == count, f"movers, frame {i}"
+    numbers = np.frombuffer(content, np.float64, 81 * count, 8).reshape(count, 81)
+    mover_of = np.frombuffer(content, np.float64, len(result), 8 + 8 * numbers.size).astype(np.int32)
+    masks = np.frombuffer(content, np.uint8, -1, 8 + 8 * numbers.size + 8 * len(result))
+    assert_same_bits(result.mover_of, mover_of, f"mover_of, frame {i}")
+    for k, (mover, mask) in enumerate(zip(result.movers, masks.reshape(count, *result.mask().shape))):
+        assert_same_bits(numbers_of(mover), numbers[k], f"mover {k}, frame {i}")
+        assert_same_bits(mover.features, np.flatnonzero(mover_of == k), f"features of mover {k}, frame {i}")
+        assert_same_bits(mover.mask(), mask, f"mask of mover {k}, frame {i}")
+    return result.movers
+
+
 @pytest.mark.parametrize("as_keypoints", [False, True], ids=["array", "cv2.KeyPoint"])
 @pytest.mark.parametrize("in_metres", [False, True], ids=["uint16", "float32"])
-def test_each_feature_of_each_frame(reference, frames, frame_filter, depth_factor, as_keypoints, in_metres):
+@pytest.mark.parametrize("with_movers", [False, True], ids=["features", "movers"])
+def test_each_feature_of_each_frame(reference, frames, camera, depth_factor, as_keypoints, in_metres, with_movers):
+    """Verdicts are the same with movers and without."""
+    frame_filter = stillpoint.FrameFilter(camera, movers=with_movers)
+    if with_movers:
+        frame_filter.options.movers.least_path_m = 0.003
+        frame_filter.options.movers.least_path_sigmas = 1
     keypoints_of = cv2.ORB_create(400)
-    statuses = []
+    statuses, movers = [], []
     for i, frame in enumerate(frames):
         features = np.fromfile(reference / f"features_{i:02}.bin", FEATURE)
         masks = np.fromfile(reference / f"masks_{i:02}.bin", np.uint8).reshape(2, *frame.gray.shape)
@@ -45,7 +75,7 @@ def test_each_feature_of_each_frame(reference, frames, frame_filter, depth_facto
         if i == EXPECTED_AT:
             frame_filter.expect_motion(true_motion)
         if i == DETECTED_AT:
-            frame_filter.detected(frame.timestamp_s, [stillpoint.Detection(100, 40, 80, 150, confidence=0.9)])
+            frame_filter.detected(frame.timestamp_s, [stillpoint.Detection(0, 40, 100, 150, confidence=0.9, class_index=7)])
         predicted = frame_filter.predicted_keep_mask(frame.timestamp_s, 8)
         keypoints = keypoints_of.detect(frame.gray) if as_keypoints else frame.pixels
         if in_metres:
@@ -64,7 +94,13 @@ def test_each_feature_of_each_frame(reference, frames, frame_filter, depth_facto
         assert_same_bits(result.motion.current_from_reference, motion, f"motion, frame {i}")
         assert result.status == numbers[48]
         statuses.append(result.status)
+        if with_movers:
+            movers += assert_same_movers(result, reference / f"movers_{i:02}.bin", i)
+        else:
+            assert not result.movers and (result.mover_of == -1).all()
     assert statuses.count(stillpoint.Status.first_frame) == 2 and statuses.count(stillpoint.Status.ok) == len(frames) - 2
+    if with_movers:
+        assert len(movers) > 1 and movers[0].id == 1 and any(mover.class_index == 7 for mover in movers)
 
 
 def test_figures(reference, frames):

@@ -107,6 +107,23 @@ def test_options_outlive_nothing():
     assert options.false_positive_rate == 0.125
 
 
+def test_movers(tmp_path):
+    """Their options are there where movers are, and in no file of a filter without."""
+    camera = stillpoint.Camera(525, 525, 320, 240, 640, 480)
+    without, with_movers = stillpoint.FrameFilter(camera), stillpoint.FrameFilter(camera, movers=True)
+    assert not hasattr(without.options, "movers")
+    with_movers.options.movers.least_path_m = 0.05
+    assert with_movers.options.as_dict()["movers.least_path_m"] == 0.05
+    with pytest.raises(stillpoint.Error, match="^movers.remembered_s is -1, expected a number from 0 to 3600"):
+        with_movers.options.movers.remembered_s = -1
+    without.write_options(tmp_path / "without.yaml")
+    with_movers.read_options(tmp_path / "without.yaml")
+    assert with_movers.options.movers.least_path_m == 0.05
+    with_movers.write_options(tmp_path / "with.yaml")
+    with pytest.raises(stillpoint.Error, match="movers"):
+        without.read_options(tmp_path / "with.yaml")
+
+
 def test_files(tmp_path):
     camera = stillpoint.Camera(525, 525, 320, 240, 640, 480)
     one, other = stillpoint.FrameFilter(camera), stillpoint.FrameFilter(camera)
