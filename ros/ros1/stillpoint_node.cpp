@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The ROS 1 node: image, depth and camera_info in; masks, depth with holes and diagnostics out. docs/ros.md says how to
-// run it; all that is not ROS is in stillpoint_ros/.
+// The ROS 1 node: image, depth and camera_info in; masks, depth with holes, movers and diagnostics out. docs/ros.md
+// says how to run it; all that is not ROS is in stillpoint_ros/.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/ros.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cstdint>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "stillpoint_ros/mover_messages.hpp"
 #include "stillpoint_ros/node_core.hpp"
 #include "stillpoint_ros1/messages.hpp"
 
@@ -65,6 +67,7 @@ class StillpointNode {
     mask_ = private_node_.advertise<sensor_msgs::Image>("mask", kQueue);
     mask_inverse_ = private_node_.advertise<sensor_msgs::Image>("mask_inverse", kQueue);
     depth_ = private_node_.advertise<sensor_msgs::Image>("depth", kQueue);
+    movers_ = private_node_.advertise<visualization_msgs::MarkerArray>("movers", kQueue);
     diagnostics_ = node_.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", kQueue);
 
     RosParameters parameters(private_node_);
@@ -97,29 +100,20 @@ class StillpointNode {
     const auto depth = std::static_pointer_cast<const sensor_msgs::Image>(frame.depth.message);
     publish_if_wanted(depth_, answer.depth, *depth, depth->encoding);
     publish_if_wanted(mask_inverse_, answer.mask_inverse, *image, "mono8");
+    if (movers_.getNumSubscribers() > 0)
+      movers_.publish(stillpoint_ros::markers<visualization_msgs::MarkerArray>(answer.movers, image->header));
     publish_if_wanted(mask_, answer.mask, *image, "mono8");
   }
 
   void report() {
     const stillpoint_ros::Report report = core_.report();
     for (const std::string& sentence : report.missing) ROS_WARN("%s", sentence.c_str());
-    diagnostic_msgs::DiagnosticArray array;
-    array.header.stamp = ros::Time::now();
-    array.status.resize(1);
-    diagnostic_msgs::DiagnosticStatus& status = array.status.front();
-    status.level = static_cast<decltype(status.level)>(report.level);
-    status.name = ros::this_node::getName() + ": filter";
-    status.message = report.message;
-    for (const auto& [key, value] : report.values) {
-      status.values.emplace_back();
-      status.values.back().key = key;
-      status.values.back().value = value;
-    }
-    diagnostics_.publish(array);
+    diagnostics_.publish(stillpoint_ros::diagnostics<diagnostic_msgs::DiagnosticArray>(
+        report, ros::this_node::getName(), ros::Time::now()));
   }
 
   ros::NodeHandle node_, private_node_{"~"};
-  Publisher mask_, mask_inverse_, depth_, diagnostics_;
+  Publisher mask_, mask_inverse_, depth_, movers_, diagnostics_;
   stillpoint_ros::NodeCore core_;
   ros::Subscriber image_in_, depth_in_, camera_info_in_;
   ros::WallTimer timer_;

@@ -5,6 +5,7 @@
 // A detection of vision_msgs, without ROS, and what the prior takes of it.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "stillpoint/core/regions.hpp"
@@ -26,11 +27,22 @@ struct ClassNames {
   stillpoint::MobilityTable mobility;
 
   std::string name_of(const std::string& class_id) const {
+    const int number = number_of(class_id);
+    return classes.names(number) ? classes[static_cast<std::size_t>(number)] : class_id;
+  }
+  /// In the list of classes; -1 where it has none of that name.
+  int index_of(const std::string& class_id) const {
+    if (const int number = number_of(class_id); classes.names(number)) return number;
+    for (std::size_t i = 0; i < classes.size(); ++i)
+      if (!class_id.empty() && classes[i] == class_id) return static_cast<int>(i);
+    return -1;
+  }
+
+ private:
+  static int number_of(const std::string& class_id) {
     const bool is_number =
         !class_id.empty() && class_id.size() < 6 && class_id.find_first_not_of("0123456789") == std::string::npos;
-    if (!is_number) return class_id;
-    const int number = std::stoi(class_id);
-    return classes.names(number) ? classes[static_cast<std::size_t>(number)] : class_id;
+    return is_number ? std::stoi(class_id) : -1;
   }
 };
 
@@ -40,6 +52,7 @@ inline stillpoint::Detection detection_of(const RawDetection& raw, const ClassNa
   detection.box = {static_cast<float>(raw.centre_x - raw.width / 2), static_cast<float>(raw.centre_y - raw.height / 2),
                    static_cast<float>(raw.width), static_cast<float>(raw.height)};
   detection.confidence = static_cast<float>(raw.score);
+  detection.class_index = static_cast<std::int16_t>(names.index_of(raw.class_id));
   detection.mobility = names.mobility[names.name_of(raw.class_id)];
   return detection;
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/stillpoint.hpp"
 #include "stillpoint/verdict/masked_depth.hpp"
@@ -24,11 +25,12 @@
 
 namespace stillpoint_ros {
 
-/// How masks are made of verdicts.
+/// How masks are made of verdicts, and whether movers are followed.
 struct MaskOptions {
   int features = 1000;                    ///< ORB keypoints per frame, which the filter judges
   int margin_px = 8;                      ///< more is dropped around what moves
   double depth_units_per_metre = 1000.0;  ///< of 16-bit depth; ROS (REP 118) says millimetres
+  bool follow_movers = false;             ///< answers have movers
 };
 
 template <class Visit>
@@ -36,6 +38,7 @@ void each_option(MaskOptions& options, Visit& visit) {
   visit("features", options.features, stillpoint::OptionRange{1, 100000});
   visit("margin_px", options.margin_px, stillpoint::OptionRange{0, 1000});
   visit("depth_units_per_metre", options.depth_units_per_metre, stillpoint::OptionRange{1e-3, 1e6});
+  visit("follow_movers", options.follow_movers);
 }
 
 /// What is said of one frame. The images belong to the session and hold until its next frame.
@@ -48,13 +51,15 @@ struct FrameAnswer {
   stillpoint::ImageView mask;          ///< gray8 of the image's size: 255 keeps, 0 drops
   stillpoint::ImageView mask_inverse;  ///< 0 keeps, 255 drops
   stillpoint::ImageView depth;         ///< the frame's depth, 0 where the mask drops
+  stillpoint::span<const stillpoint::Mover> movers;
 };
 
 /// The filter and its memory of one camera. Not for two threads.
 class MaskSession {
  public:
   MaskOptions options;
-  stillpoint::FrameFilter<> filter{stillpoint::Camera(1, 1, 0, 0, 1, 1)};  ///< its camera comes with the first frame
+  /// Its camera comes with the first frame.
+  stillpoint::FrameFilter<stillpoint::WithMovers<>> filter{stillpoint::Camera(1, 1, 0, 0, 1, 1)};
 
   /// Judges a frame and paints its masks: everything is kept where the frame can't be judged.
   /// @throws stillpoint::Error where a message can't be read; the session is as before
@@ -62,6 +67,7 @@ class MaskSession {
     const cv::Mat image = read("image", [&] { return image_of(frame.image); });
     const cv::Mat depth = read("depth", [&] { return depth_of(frame.depth); });
     use_camera(frame.camera);
+    filter.movers.is_on = options.follow_movers;
     cv::Mat gray = image;
     if (image.channels() == 3) cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
     find_keypoints(gray);
@@ -73,6 +79,7 @@ class MaskSession {
     answer_.hint = result.hint();
     answer_.features = result.size();
     answer_.kept = result.kept_count();
+    answer_.movers = result.movers();
     answer_.objects = filter.prior.objects().size();
     answer_.filter_ms = result.timings().total_ms();
     paint(view);

@@ -106,6 +106,7 @@ class NodeCore {
                      {"last status", frames_ == 0 ? "n/a" : status},
                      {"features kept [%]", share(kept_, features_)},
                      {"detected objects", std::to_string(objects_)},
+                     {"movers", session_.options.follow_movers ? std::to_string(movers_) : "not followed"},
                      {"latency, longest [ms]", stillpoint::format_fixed(1000 * longest_latency_s_, 1)},
                      {"filter, last [ms]", stillpoint::format_fixed(last_filter_ms_, 1)},
                      {"frames left out, all", std::to_string(worker_ ? worker_->left_out() : 0)},
@@ -167,6 +168,7 @@ class NodeCore {
     features_ += answer.features;
     kept_ += answer.kept;
     objects_ = answer.objects;
+    movers_ = answer.movers.size();
     last_status_ = answer.status;
     last_filter_ms_ = answer.filter_ms;
     longest_latency_s_ = std::max(longest_latency_s_, latency_s);
@@ -178,7 +180,7 @@ class NodeCore {
   InputWatch watch_;
   std::vector<StampedDetections> detections_;
   std::size_t frames_ = 0, judged_ = 0, features_ = 0, kept_ = 0;  // since the last report
-  std::size_t objects_ = 0;
+  std::size_t objects_ = 0, movers_ = 0;
   double longest_latency_s_ = 0.0, last_filter_ms_ = 0.0;
   stillpoint::Status last_status_ = stillpoint::Status::first_frame;
   std::string hint_;

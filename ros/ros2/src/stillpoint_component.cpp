@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The ROS 2 component: image, depth, camera_info and detections in; masks, depth with holes and diagnostics out.
-// docs/ros.md says how to run it; all that is not ROS is in stillpoint_ros/, shared with the ROS 1 node.
+// The ROS 2 component: image, depth, camera_info and detections in; masks, depth with holes, movers and diagnostics
+// out. docs/ros.md says how to run it; all that is not ROS is in stillpoint_ros/, shared with the ROS 1 node.
 
 #include <chrono>
 #include <cstdint>
@@ -14,12 +14,15 @@
 #include <string>
 #include <utility>
 #include <vector>
+#include <visualization_msgs/msg/marker_array.hpp>
 #ifdef STILLPOINT_ROS2_WITH_VISION_MSGS
 #include <vision_msgs/msg/detection2_d_array.hpp>
+#include <vision_msgs/msg/detection3_d_array.hpp>
 #endif
 
 #include "messages.hpp"
 #include "stillpoint_ros/detections.hpp"
+#include "stillpoint_ros/mover_messages.hpp"
 #include "stillpoint_ros/node_core.hpp"
 
 namespace stillpoint_ros2 {
@@ -71,6 +74,10 @@ class StillpointComponent : public rclcpp::Node {
     mask_ = create_publisher<Image>("~/mask", reliable);
     mask_inverse_ = create_publisher<Image>("~/mask_inverse", reliable);
     depth_ = create_publisher<Image>("~/depth", reliable);
+    movers_ = create_publisher<visualization_msgs::msg::MarkerArray>("~/movers", reliable);
+#ifdef STILLPOINT_ROS2_WITH_VISION_MSGS
+    mover_boxes_ = create_publisher<vision_msgs::msg::Detection3DArray>("~/mover_boxes", reliable);
+#endif
     diagnostics_ = create_publisher<diagnostic_msgs::msg::DiagnosticArray>("/diagnostics", reliable);
 
     RosParameters parameters(*this);
@@ -122,6 +129,14 @@ class StillpointComponent : public rclcpp::Node {
     const auto depth = std::static_pointer_cast<const Image>(frame.depth.message);
     publish_if_wanted(depth_, answer.depth, *depth, depth->encoding);
     publish_if_wanted(mask_inverse_, answer.mask_inverse, *image, "mono8");
+    if (movers_->get_subscription_count() > 0)
+      movers_->publish(stillpoint_ros::markers<visualization_msgs::msg::MarkerArray>(answer.movers, image->header));
+#ifdef STILLPOINT_ROS2_WITH_VISION_MSGS
+    const auto class_name = [this](int index) { return names_.name_of(std::to_string(index)); };
+    if (mover_boxes_->get_subscription_count() > 0)
+      mover_boxes_->publish(
+          stillpoint_ros::detections_3d<vision_msgs::msg::Detection3DArray>(answer.movers, image->header, class_name));
+#endif
     publish_if_wanted(mask_, answer.mask, *image, "mono8");
   }
 
@@ -149,22 +164,15 @@ class StillpointComponent : public rclcpp::Node {
   void report() {
     const stillpoint_ros::Report report = core_.report();
     for (const std::string& sentence : report.missing) RCLCPP_WARN(get_logger(), "%s", sentence.c_str());
-    diagnostic_msgs::msg::DiagnosticArray array;
-    array.header.stamp = now();
-    array.status.resize(1);
-    diagnostic_msgs::msg::DiagnosticStatus& status = array.status.front();
-    status.level = static_cast<decltype(status.level)>(report.level);
-    status.name = std::string(get_fully_qualified_name()) + ": filter";
-    status.message = report.message;
-    for (const auto& [key, value] : report.values) {
-      status.values.emplace_back();
-      status.values.back().key = key;
-      status.values.back().value = value;
-    }
-    diagnostics_->publish(array);
+    diagnostics_->publish(
+        stillpoint_ros::diagnostics<diagnostic_msgs::msg::DiagnosticArray>(report, get_fully_qualified_name(), now()));
   }
 
   ImagePublisher mask_, mask_inverse_, depth_;
+  rclcpp::Publisher<visualization_msgs::msg::MarkerArray>::SharedPtr movers_;
+#ifdef STILLPOINT_ROS2_WITH_VISION_MSGS
+  rclcpp::Publisher<vision_msgs::msg::Detection3DArray>::SharedPtr mover_boxes_;
+#endif
   rclcpp::Publisher<diagnostic_msgs::msg::DiagnosticArray>::SharedPtr diagnostics_;
   stillpoint_ros::ClassNames names_;
   stillpoint_ros::NodeCore core_;  // before what hands messages to it

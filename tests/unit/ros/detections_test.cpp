@@ -31,6 +31,13 @@ TEST(Detections, ANumberIsLookedUpInTheListOfClasses) {
   EXPECT_EQ(names.name_of("14"), "person");
 }
 
+TEST(Detections, ANameOfTheListHasItsNumber) {
+  EXPECT_EQ(detection_of({"chair", 1, 0, 0, 1, 1}, ClassNames()).class_index, 56);
+  EXPECT_EQ(detection_of({"56", 1, 0, 0, 1, 1}, ClassNames()).class_index, 56);
+  for (const char* none : {"", "80", "unicorn", "123456789012"})
+    EXPECT_EQ(detection_of({none, 1, 0, 0, 1, 1}, ClassNames()).class_index, -1) << none;
+}
+
 TEST(Detections, AnUnknownClassSaysNothing) {
   EXPECT_EQ(detection_of({"unicorn", 1, 0, 0, 1, 1}, ClassNames()).mobility, stillpoint::Mobility::unknown);
 }

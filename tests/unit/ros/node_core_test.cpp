@@ -112,6 +112,21 @@ TEST(MaskSession, AnswersAsTheFilterDoes) {
   EXPECT_GT(dropped_pixels, 1000) << "the scene has a mover, or this test shows nothing";
 }
 
+TEST(MaskSession, FollowsMoversWhereItIsAsked) {
+  MaskSession with, without;
+  with.options.depth_units_per_metre = without.options.depth_units_per_metre = kDepthUnit;
+  with.options.follow_movers = true;
+  for (const Frame& frame : frames()) {
+    const FrameAnswer &answer = with.process(frame.messages), &masks = without.process(frame.messages);
+    EXPECT_TRUE(masks.movers.empty());
+    EXPECT_TRUE(is_equal(masks.mask, as_mat(answer.mask)));
+    if (&frame != &frames().back()) continue;
+    ASSERT_FALSE(answer.movers.empty());
+    EXPECT_EQ(answer.movers[0].id, 1u);
+    EXPECT_GT(answer.movers[0].centroid.z(), 0.5);
+  }
+}
+
 TEST(MaskSession, EncodingsDoNotMatter) {
   MaskSession first, second;
   first.options.depth_units_per_metre = second.options.depth_units_per_metre = kDepthUnit;
