@@ -22,8 +22,9 @@ rm -rf "$site/reference/html"
 cmake --build "$site/reference" --target stillpoint_docs
 
 # The guides, and what they link to, lie in the site as in the project: their links hold in both.
-# README.md says in which order the guides are read; a guide that it does not name comes after them.
-mapfile -t guides < <({ grep -oE '\]\(docs/[a-z0-9_]+\.md' README.md | sed 's|^](||'; printf '%s\n' docs/*.md; } | awk '!seen[$0]++')
+# docs/README.md says in which order the guides are read; a guide that it does not name comes after them.
+mapfile -t guides < <({ echo docs/README.md; grep -oE '\]\([a-z0-9_]+\.md' docs/README.md | sed 's|^](|docs/|'; printf '%s\n' docs/*.md; } |
+  awk '!seen[$0]++')
 mapfile -t hosts < <(ls -d docs/hosts/*.md 2> /dev/null)
 mapfile -t fronts < <(ls -d python/README.md ros/README.md shim/README.md 2> /dev/null)
 mapfile -t design < <(ls -d docs/design/*.md 2> /dev/null)

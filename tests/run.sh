@@ -17,7 +17,7 @@ bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeig
   python3-setuptools python3-wheel python3-pybind11 python3-numpy python3-opencv python3-pytest < /dev/null
 
 # ROS 1 is packaged by Debian 12 and Ubuntu 24.04, and not everywhere: where it is not, ros/ is built without it.
-ros_packages=(libroscpp-dev libsensor-msgs-dev libdiagnostic-msgs-dev librosbag-storage-dev python3-roslaunch)
+ros_packages=(libroscpp-dev libsensor-msgs-dev libdiagnostic-msgs-dev libvisualization-msgs-dev librosbag-storage-dev python3-roslaunch)
 ros=AUTO
 if command -v apt-cache > /dev/null && apt-cache show "${ros_packages[@]}" > /dev/null 2>&1 &&
   bash tests/install_packages.sh "${ros_packages[@]}" < /dev/null; then
