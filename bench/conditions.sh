@@ -9,10 +9,5 @@
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-bash "$root/tests/install_packages.sh" g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libbenchmark-dev \
-  libcli11-dev < /dev/null >&2
-
-cmake -S "$root" -B "$root/build/ratios" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \
-  -DSTILLPOINT_BUILD_EXAMPLES=OFF > /dev/null
-cmake --build "$root/build/ratios" --target stillpoint_conditions >&2
+bash "$root/bench/build.sh" stillpoint_conditions
 "$root/build/ratios/bench/stillpoint_conditions" "$@"

@@ -15,12 +15,7 @@ if (($# > 0)); then
   shift
 fi
 
-bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libbenchmark-dev \
-  < /dev/null >&2
-
-cmake -S . -B build/ratios -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \
-  -DSTILLPOINT_BUILD_EXAMPLES=OFF > /dev/null
-cmake --build build/ratios --target stillpoint_ratios >&2
+bash bench/build.sh stillpoint_ratios
 
 LC_ALL=C lscpu | awk -F ': +' '/^(CPU\(s\)|Model name|CPU family|Model):/ { printf "%s %s: %s", n++ ? "," : "#", $1, $2 } END { print "" }'
 LC_ALL=C uptime | sed 's/.*load average/# load average before the run/'
