@@ -175,9 +175,7 @@ class PoseRefinement {
   }
 
   static Pose moved(const Pose& camera_from_world, const Vector6d& step) {
-    Pose motion = Pose::Identity();
-    motion.linear() = stillpoint::rotation_from_vector(step.tail<3>());
-    motion.translation() = step.head<3>();
+    const Pose motion = stillpoint::make_pose(stillpoint::rotation_from_vector(step.tail<3>()), step.head<3>());
     return stillpoint::orthonormalized(motion * camera_from_world);
   }
 

@@ -36,9 +36,8 @@ inline bool pose_by_ransac(span<const PointObservation> observations, const Came
   if (!cv::solvePnPRansac(points, pixels, k, cv::noArray(), rotation, translation, false, iterations,
                           static_cast<float>(reprojection_px), confidence, cv::noArray(), cv::SOLVEPNP_AP3P))
     return false;
-  camera_from_world = Pose::Identity();
-  camera_from_world.linear() = stillpoint::rotation_from_vector({rotation[0], rotation[1], rotation[2]});
-  camera_from_world.translation() = Vector3d(translation[0], translation[1], translation[2]);
+  camera_from_world = stillpoint::make_pose(stillpoint::rotation_from_vector({rotation[0], rotation[1], rotation[2]}),
+                                            {translation[0], translation[1], translation[2]});
   return true;
 }
 

@@ -70,9 +70,8 @@ class MeasurementError : public ceres::SizedCostFunction<3, 6, 3> {
 };
 
 Pose moved(const Pose& begin, const std::array<double, 6>& motion) {
-  Pose step = Pose::Identity();
-  step.linear() = stillpoint::rotation_from_vector({motion[0], motion[1], motion[2]});
-  step.translation() = Vector3d(motion[3], motion[4], motion[5]);
+  const Pose step = stillpoint::make_pose(stillpoint::rotation_from_vector({motion[0], motion[1], motion[2]}),
+                                          {motion[3], motion[4], motion[5]});
   return stillpoint::orthonormalized(step * begin);
 }
 

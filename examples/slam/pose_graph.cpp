@@ -99,9 +99,8 @@ void relax(PoseGraph& graph, int iterations) {
   ceres::Solve(solver, &problem, &summary);
   if (!summary.IsSolutionUsable()) return;
   for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-    Pose step = Pose::Identity();
-    step.linear() = stillpoint::rotation_from_vector({steps[i][0], steps[i][1], steps[i][2]});
-    step.translation() = Vector3d(steps[i][3], steps[i][4], steps[i][5]);
+    const Pose step = stillpoint::make_pose(stillpoint::rotation_from_vector({steps[i][0], steps[i][1], steps[i][2]}),
+                                            {steps[i][3], steps[i][4], steps[i][5]});
     graph.nodes[i].camera_from_world = stillpoint::orthonormalized(step * graph.nodes[i].camera_from_world);
   }
 }

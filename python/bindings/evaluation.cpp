@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <cstddef>
 #include <filesystem>
 #include <string>
@@ -55,16 +56,10 @@ Trajectory trajectory_of(const py::object& object, const std::string& name) {
     const std::string place = name + ", row " + std::to_string(i);
     for (int column = 0; column < 8; ++column)
       if (!std::isfinite(row[column])) throw stillpoint::Error(place + " is not finite, expected eight finite numbers");
-    Eigen::Quaterniond rotation(row[7], row[4], row[5], row[6]);
-    const double length = rotation.coeffs().stableNorm();
-    if (!(length > 1e-6))
-      throw stillpoint::Error(place + " has a quaternion of length zero, expected qx qy qz qw of length one");
-    rotation.coeffs() /= length;
-    stillpoint::StampedPose pose;
-    pose.timestamp_s = row[0];
-    pose.world_from_camera.linear() = rotation.toRotationMatrix();
-    pose.world_from_camera.translation() = stillpoint::Vector3d(row[1], row[2], row[3]);
-    trajectory.push_back(pose);
+    const std::optional<stillpoint::Pose> pose =
+        stillpoint::pose_from_quaternion({row[7], row[4], row[5], row[6]}, {row[1], row[2], row[3]});
+    if (!pose) throw stillpoint::Error(place + " has a quaternion of length zero, expected qx qy qz qw of length one");
+    trajectory.push_back({row[0], *pose});
   }
   return trajectory;
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,15 @@ struct StampedPose {
 
 /// Poses in the order of time; equal times may follow each other.
 using Trajectory = std::vector<StampedPose>;
+
+/// A pose as files write it. A quaternion of any length is taken, but for one of almost none, which has no direction.
+inline std::optional<Pose> pose_from_quaternion(Eigen::Quaterniond rotation, const Vector3d& translation) {
+  constexpr double kShortest = 1e-6;  // the last decimal of such files
+  const double length = rotation.coeffs().stableNorm();
+  if (!(length > kShortest)) return std::nullopt;
+  rotation.coeffs() /= length;
+  return make_pose(rotation.toRotationMatrix(), translation);
+}
 
 /// Poses of two trajectories that belong together: `reference[i]` was taken at the time of `estimate[i]`.
 struct AssociatedTrajectories {

@@ -75,7 +75,6 @@ inline std::vector<EurocImage> read_euroc_images(const std::filesystem::path& ca
 /// @throws Error with file and line for a row of fewer columns, what is no number, a quaternion of length zero, or a
 ///         time that does not rise.
 inline Trajectory read_euroc_trajectory(const std::filesystem::path& file) {
-  constexpr double kShortestQuaternion = 1e-6;  // the last decimal of such files: shorter is no direction
   static constexpr const char* kNames[] = {"timestamp", "p_x", "p_y", "p_z", "q_w", "q_x", "q_y", "q_z"};
   Trajectory trajectory;
   TableReader rows(file, TableReader::Columns::between_commas);
@@ -84,15 +83,10 @@ inline Trajectory read_euroc_trajectory(const std::filesystem::path& file) {
       rows.fail(std::to_string(rows.column_count()) + " columns", "at least 8: timestamp [ns], p x y z, q w x y z");
     double values[8];
     for (std::size_t i = 1; i < 8; ++i) values[i] = rows.number(i, kNames[i]);
-    Eigen::Quaterniond rotation(values[4], values[5], values[6], values[7]);
-    const double length = rotation.coeffs().stableNorm();
-    if (!(length > kShortestQuaternion)) rows.fail("a quaternion of length zero", "q w x y z of length one");
-    rotation.coeffs() /= length;
-    StampedPose pose;
-    pose.timestamp_s = detail::seconds(detail::nanoseconds(rows, previous_ns));
-    pose.world_from_camera.linear() = rotation.toRotationMatrix();
-    pose.world_from_camera.translation() = Vector3d(values[1], values[2], values[3]);
-    trajectory.push_back(pose);
+    const std::optional<Pose> pose =
+        pose_from_quaternion({values[4], values[5], values[6], values[7]}, {values[1], values[2], values[3]});
+    if (!pose) rows.fail("a quaternion of length zero", "q w x y z of length one");
+    trajectory.push_back({detail::seconds(detail::nanoseconds(rows, previous_ns)), *pose});
   }
   return trajectory;
 }

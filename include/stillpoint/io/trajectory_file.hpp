@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "stillpoint/core/error.hpp"
@@ -21,19 +22,13 @@ namespace stillpoint {
 /// The pose in the columns tx ty tz qx qy qz qw of a row, from `first` on.
 /// @throws Error unless they are finite numbers and the quaternion has a direction.
 inline Pose pose_in_row(const TableReader& rows, std::size_t first) {
-  constexpr double kShortestQuaternion = 1e-6;  // the last decimal of such files: shorter is no direction
   static constexpr const char* kNames[] = {"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
   double values[7];
   for (std::size_t i = 0; i < 7; ++i) values[i] = rows.number(first + i, kNames[i]);
-  Eigen::Quaterniond rotation(values[6], values[3], values[4], values[5]);
-  const double length = rotation.coeffs().stableNorm();
-  if (!(length > kShortestQuaternion)) rows.fail("a quaternion of length zero", "qx qy qz qw of length one");
-  rotation.coeffs() /= length;
-
-  Pose pose = Pose::Identity();
-  pose.linear() = rotation.toRotationMatrix();
-  pose.translation() = Vector3d(values[0], values[1], values[2]);
-  return pose;
+  const std::optional<Pose> pose =
+      pose_from_quaternion({values[6], values[3], values[4], values[5]}, {values[0], values[1], values[2]});
+  if (!pose) rows.fail("a quaternion of length zero", "qx qy qz qw of length one");
+  return *pose;
 }
 
 /// Reads a trajectory. Quaternions of any length but zero are taken and normalised; a file without a row is an empty
