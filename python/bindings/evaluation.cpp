@@ -8,9 +8,9 @@
 
 #include <array>
 #include <cmath>
-#include <optional>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
