@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// reference FOLDER: writes a rendered sequence in the layout of the TUM benchmark, and what the C++ says of it, bit for
-// bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt.
-// tests/python/test_equal_to_cpp.py calls the same in Python.
+// reference FOLDER [RECORDED]: writes a rendered sequence in the layout of the TUM benchmark, and what the C++ says of
+// it, bit for bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt. RECORDED is a folder
+// of that layout: recorded_<i>.bin are the features of its first frames. tests/python/test_equal_to_cpp.py calls the
+// same in Python.
 
 #include <cstdint>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <fstream>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include "stillpoint/evaluation/trajectory_error.hpp"
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/trajectory_file.hpp"
+#include "stillpoint/io/tum_sequence.hpp"
 #include "stillpoint/policies/with_movers.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
 #include "stillpoint/stillpoint.hpp"
@@ -32,7 +35,7 @@ using stillpoint::FrameResult, stillpoint::ImageBuffer, stillpoint::Pose;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// What test_equal_to_cpp.py does at the same frames.
-constexpr int kFrames = 14, kExpectedAt = 5, kDetectedAt = 9, kOptionAt = 8, kResetAt = 11;
+constexpr int kFrames = 14, kExpectedAt = 5, kDetectedAt = 9, kOptionAt = 8, kResetAt = 11, kRecordedFrames = 30;
 
 /// One keypoint, without gaps, as numpy reads it.
 struct Feature {
@@ -152,6 +155,30 @@ void write_figures(const fs::path& folder, const stillpoint::FilterScore& score)
   write("false_positive_rate", score.false_alarms().value());
 }
 
+std::string numbered(const char* name, int i) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%s_%02d.bin", name, i);
+  return text;
+}
+
+void run_recorded(const fs::path& recorded, const fs::path& folder) {
+  const stillpoint::TumSequence sequence(recorded);
+  stillpoint::FrameFilter<stillpoint::WithMovers<>> filter(sequence.camera());
+  filter.movers.is_on = false;
+  const auto orb = cv::ORB::create(1000);
+  for (int i = 0; i < kRecordedFrames; ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    const stillpoint::RgbdImages images = sequence.load(index);
+    cv::Mat gray;
+    cv::cvtColor(images.colour, gray, cv::COLOR_BGR2GRAY);
+    std::vector<cv::KeyPoint> keypoints;
+    orb->detect(gray, keypoints);
+    const stillpoint::DepthView depth(images.depth, sequence.depth_factor());
+    write_features(folder / numbered("recorded", i), keypoints,
+                   filter.filter_frame({gray, depth, sequence.frames()[index].timestamp_s}, keypoints));
+  }
+}
+
 void run(const fs::path& folder) {
   stillpoint::synthetic::SceneOptions options;
   options.width = 320;
@@ -205,10 +232,10 @@ void run(const fs::path& folder) {
         keypoints);
     filter.feedback(frame.world_from_camera);
 
-    write_features(folder / ("features_" + std::string(name) + ".bin"), keypoints, result);
-    write_masks(folder / ("masks_" + std::string(name) + ".bin"), predicted, result);
-    write_poses(folder / ("poses_" + std::string(name) + ".bin"), frame.world_from_camera, true_motion, result);
-    write_movers(folder / ("movers_" + std::string(name) + ".bin"), result);
+    write_features(folder / numbered("features", i), keypoints, result);
+    write_masks(folder / numbered("masks", i), predicted, result);
+    write_poses(folder / numbered("poses", i), frame.world_from_camera, true_motion, result);
+    write_movers(folder / numbered("movers", i), result);
     std::vector<stillpoint::Vector2f> pixels;
     stillpoint::read_pixels(keypoints, pixels);
     score.add_frame(frame.labels.view(), pixels, result.keep());
@@ -227,8 +254,9 @@ void run(const fs::path& folder) {
 
 int main(int argument_count, char** arguments) {
   try {
-    if (argument_count != 2) throw stillpoint::Error("usage: reference FOLDER");
+    if (argument_count != 2 && argument_count != 3) throw stillpoint::Error("usage: reference FOLDER [RECORDED]");
     run(arguments[1]);
+    if (argument_count == 3) run_recorded(arguments[2], arguments[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "reference: %s\n", error.what());
     return 1;

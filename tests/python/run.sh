@@ -10,7 +10,9 @@ work=$1 python=$2 reference=$3
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 rm -rf "$work" && mkdir -p "$work"
 
-"$reference" "$work/reference"
+recorded=()
+[[ ! -d ${STILLPOINT_SHARED_DATA:-} ]] || recorded=("$STILLPOINT_SHARED_DATA/kitchen_walk")
+"$reference" "$work/reference" "${recorded[@]}"
 "$python" -m venv --system-site-packages --without-pip "$work/venv"  # pip is the system's
 python=$work/venv/bin/python
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_ROOT_USER_ACTION=ignore PYTHONDONTWRITEBYTECODE=1
