@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "stillpoint/cluster/k_means.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -82,19 +83,33 @@ class MotionGroups {
     Random random;
     const KMeansResult clusters =
         lloyd(arrays, k_means_plus_plus(arrays, wanted, random, workspace), kIterations, workspace);
-    pieces_ = wanted;
-    begin_ = workspace.take<std::size_t>(pieces_ + 1);
+    begin_ = workspace.take<std::size_t>(points_.size + 1);
     member_ = workspace.take<std::uint32_t>(points_.size);
-    centre_ = clusters.centre;
-    radius_ = workspace.take<float>(pieces_);
+    centre_ = workspace.take<Eigen::Vector3f>(points_.size, Eigen::Vector3f::Zero());
+    radius_ = workspace.take<float>(points_.size);
+    std::size_t end = 0;
+    for (std::size_t c = 0; c < wanted; ++c) {
+      const std::size_t first = end;
+      for (std::size_t k = 0; k < points_.size; ++k)
+        if (clusters.cluster[k] == static_cast<std::int32_t>(c)) member_[end++] = static_cast<std::uint32_t>(k);
+      split(first, end, arrays);
+    }
     group_ = workspace.take<std::int32_t>(pieces_, kNone);
-    for (std::size_t c = 0; c < pieces_; ++c) begin_[c + 1] = begin_[c] + clusters.member_count[c];
-    const span<std::size_t> next = workspace.take<std::size_t>(pieces_);
-    std::copy_n(begin_.begin(), pieces_, next.begin());
-    for (std::size_t k = 0; k < points_.size; ++k) {
-      const auto c = static_cast<std::size_t>(clusters.cluster[k]);
-      member_[next[c]++] = static_cast<std::uint32_t>(k);
-      radius_[c] = std::max(radius_[c], (arrays[k] - centre_[c]).norm());
+  }
+
+  /// A cluster of what is strewn is no surface: only what hangs together is one piece.
+  void split(std::size_t first, std::size_t end, const PointArrays& arrays) {
+    while (first < end) {
+      std::size_t last = first + 1;
+      for (std::size_t i = first; i < last; ++i)
+        for (std::size_t j = last; j < end; ++j)
+          if (near(member_[i], member_[j])) std::swap(member_[last++], member_[j]);
+      Eigen::Vector3f& centre = centre_[pieces_];
+      for (std::size_t i = first; i < last; ++i) centre += arrays[member_[i]] / static_cast<float>(last - first);
+      for (std::size_t i = first; i < last; ++i)
+        radius_[pieces_] = std::max(radius_[pieces_], (arrays[member_[i]] - centre).norm());
+      begin_[++pieces_] = last;
+      first = last;
     }
   }
 
@@ -107,8 +122,12 @@ class MotionGroups {
     if ((centre_[a] - centre_[b]).norm() > radius_[a] + radius_[b] + reach_m) return false;
     for (const std::uint32_t i : members(a))
       for (const std::uint32_t j : members(b))
-        if ((points_.point(i) - points_.point(j)).squaredNorm() <= kReach_m * kReach_m) return true;
+        if (near(i, j)) return true;
     return false;
+  }
+
+  bool near(std::uint32_t i, std::uint32_t j) const {
+    return (points_.point(i) - points_.point(j)).squaredNorm() <= kReach_m * kReach_m;
   }
 
   /// 1 for a step that is `translation` exactly, 0 for one that is not.

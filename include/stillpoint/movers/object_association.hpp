@@ -58,8 +58,10 @@ class ObjectAssociation {
     std::size_t most = 0;
     for (std::size_t o = 0; o < is_seen.size(); ++o) {
       const TrackedObject& object = objects[o];
-      const Vector3d there = object.mean_velocity + object.velocity_at(group.centroid) - object.linear.velocity();
-      const double apart_m_s = (there - group.velocity).norm();
+      // As it goes on average, about which limbs swing, or as it goes now: it may have started or stopped.
+      const Vector3d now = object.velocity_at(group.centroid), turn = now - object.linear.velocity();
+      const double apart_m_s =
+          std::min((object.mean_velocity + turn - group.velocity).norm(), (now - group.velocity).norm());
       if (is_seen[o] == 0 || !(apart_m_s < kLimbs_m_s)) continue;
       std::size_t near = 0;
       for (const std::uint32_t k : group.members)
@@ -121,6 +123,7 @@ class ObjectAssociation {
     u += one.velocity_at(other.mover.centroid) - one.linear.velocity();  // if it turns
     const double slowest = are_known ? 2 * kSlow_m_s : kSlow_m_s, alike = are_known ? kKnownAlike_m_s : kAlike_m_s;
     if (!(std::min(u.norm(), v.norm()) > slowest) || !((u - v).norm() < alike)) return false;
+    if (are_known && ObjectIdentity::are_limb_and_body(one, other)) return true;
     return TrackedObject::touch(one, other, are_known ? MotionGroups::kReach_m : kLimb_m);
   }
 };

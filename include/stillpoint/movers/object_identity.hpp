@@ -73,6 +73,13 @@ class ObjectIdentity {
     });
   }
 
+  /// By size and place, is the one a limb of the other? What joins them need not have features, but a limb is smaller
+  /// than its body: a person of whom little is seen is as large as remembered.
+  static bool are_limb_and_body(const TrackedObject& one, const TrackedObject& other) {
+    const TrackedObject &limb = one.members < other.members ? one : other, &body = &limb == &one ? other : one;
+    return is_small(limb, body) && 2 * limb.size_m.norm() < body.size_m.norm() && gap_m(limb, body) < kLimb_m;
+  }
+
   /// Two objects are one, under the identity of `known`; where it is lost or has fewer features, `part` says where it
   /// is and how it moves.
   static void unite(std::vector<TrackedObject>& objects, std::size_t known, std::size_t part,

@@ -110,9 +110,9 @@ class ObjectUpdate {
     const Vector3d step = mover.centroid - inverted(moved) * mover.centroid, velocity = step / elapsed_s;
     const Matrix3d covariance = kCorrelation * shifted->covariance.bottomRightCorner<3, 3>();
     object.linear.correct(velocity, covariance / (elapsed_s * elapsed_s));
-    const bool is_first = object.seen_frames <= 1;
-    object.mean_velocity += (is_first ? 1.0 : share_of(elapsed_s, kMean_s)) * (velocity - object.mean_velocity);
-    object.long_velocity += (is_first ? 1.0 : share_of(elapsed_s, kLong_s)) * (velocity - object.long_velocity);
+    const double of_few = 1.0 / object.seen_frames;  // the plain mean, as long as there are few frames
+    object.mean_velocity += std::max(share_of(elapsed_s, kMean_s), of_few) * (velocity - object.mean_velocity);
+    object.long_velocity += std::max(share_of(elapsed_s, kLong_s), of_few) * (velocity - object.long_velocity);
     object.path += step;
     object.path_covariance += covariance;
   }

@@ -186,6 +186,22 @@ TEST(MotionGroups, ThoseThatAreApartAreTwoGroupsThoughTheyMoveAlike) {
   EXPECT_NE(groups.of_point[0], groups.of_point[40]);
 }
 
+// 17 points are one cluster of K-means, wherever they are: 15 of them 0.1 m apart.
+TEST(MotionGroups, WhatLiesFarOffIsOfNoGroupThoughItMovesAlike) {
+  Workspace workspace;
+  std::vector<Vector3d> seen;
+  for (int k = 0; k < 15; ++k) seen.emplace_back(0.1 * (k % 3), 0.1 * (k / 3), 2.0);
+  seen.emplace_back(-1.5, 0, 3);
+  seen.emplace_back(1.2, 0, 3);
+  const Pose moved = shift(0.02, 0, 0);
+  std::vector<WhitenedPair> pairs;
+  for (const Vector3d& point : seen)
+    pairs.emplace_back(point, kDepthSigma_m, moved * point, kDepthSigma_m, kPixelSigma_px, kCamera);
+  const MotionGroups groups(points_of(pairs, workspace), 1.0 / 30, workspace);
+  ASSERT_EQ(groups.count, 1u);
+  for (std::size_t k = 0; k < seen.size(); ++k) EXPECT_EQ(groups.of_point[k], k < 15 ? 0 : MotionGroups::kNone);
+}
+
 TEST(MotionGroups, NothingIsNoGroup) {
   Workspace workspace;
   EXPECT_EQ(MotionGroups(DynamicPoints(), 1.0 / 30, workspace).count, 0u);
