@@ -6,7 +6,8 @@
 #   docker run --rm -v "$PWD/report:/stillpoint/build/demo/report" stillpoint
 # stillpoint_run is in it, too, for your own recording:
 #   docker run --rm -v "$PWD:/data" -w /data stillpoint stillpoint_run --tum FOLDER --out OUT
-# `docker build` itself has not been run on this file yet. Its steps and its command were run one by one in a bare Debian 12 (debootstrap).
+# Built and run by buildah (chroot isolation) on a bare Debian 12 from debootstrap, the command without a network. Docker itself has
+# not been tried.
 FROM debian:12
 
 # The packages of examples/demo.sh (tests/structure/packages.sh compares them), in a layer of their own: a change of the

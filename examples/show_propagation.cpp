@@ -58,10 +58,10 @@ cv::Mat legend() {
       detail::draw_feature(field, row, stillpoint::Vector2f::Zero());
     };
   };
-  entry("box that the detector has given", box(false));
+  entry("box of the detector", box(false));
   entry("the same, carried by the filter", box(true));
-  entry("feature that stands still: kept", feature(stillpoint::Verdict::kept, true));
-  entry("feature that moves: dropped", feature(stillpoint::Verdict::dynamic, false));
+  entry("static feature: kept", feature(stillpoint::Verdict::kept, true));
+  entry("dynamic feature: dropped", feature(stillpoint::Verdict::dynamic, false));
   entry("unknown, kept", feature(stillpoint::Verdict::unknown, true));
   entry("unknown, dropped", feature(stillpoint::Verdict::unknown, false));
   return field;

@@ -12,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:-release}
 shift || true
 
-bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libgtest-dev libbenchmark-dev \
+bash tests/install_packages.sh g++ cmake make ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libgtest-dev libbenchmark-dev \
   libceres-dev libcli11-dev nlohmann-json3-dev python3-onnx doxygen chromium python3-dev python3-venv python3-pip \
   python3-setuptools python3-wheel python3-pybind11 python3-numpy python3-opencv python3-pytest < /dev/null
 

@@ -21,9 +21,9 @@ constexpr const char* explained(stillpoint::Status status) noexcept {
     case Status::depth_unit_missing: return "16-bit depth without a unit; all features are kept.";
     case Status::implausible_depth: return "Half of the depths are beyond a kilometre; all features are kept.";
     case Status::size_changed: return "The image is not of the camera's size; all features are kept.";
-    case Status::invalid_time: return "The time stamp is no time in seconds; all features are kept.";
+    case Status::invalid_time: return "The timestamp is not a time in seconds; all features are kept.";
     case Status::invalid_options: return "An option is out of its range; all features are kept.";
-    case Status::duplicate_frame: return "The time stamp of the last frame again; all features are kept.";
+    case Status::duplicate_frame: return "The timestamp of the last frame again; all features are kept.";
     case Status::out_of_order: return "Time runs backwards: the filter begins anew here; all features are kept.";
     case Status::time_gap: return "Too long since the last frame: the filter begins anew here; all features are kept.";
     case Status::no_keypoints: return "The extractor found no feature.";

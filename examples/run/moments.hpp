@@ -96,7 +96,7 @@ inline std::vector<Moment> moments(const RunRecord& run, const Figures& figures)
   constexpr double kAny = std::numeric_limits<double>::lowest();
   add_greatest(detail::values_of_frames(run, [](const FrameSummary& frame) { return frame.kept_score; }), kAny,
                [](double score) {
-                 return "what is kept agrees least with the camera's motion: median score " +
+                 return "kept features agree least with the camera's motion: median score " +
                         stillpoint::format_fixed(score, 2);
                });
   add_greatest(detail::values_of_frames(run,

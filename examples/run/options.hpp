@@ -31,7 +31,7 @@ namespace stillpoint_run {
 struct Options : InputOptions {
   std::filesystem::path out = "stillpoint_out";
   std::filesystem::path save_video;  ///< empty: none
-  std::filesystem::path stages;      ///< options of the filter's stages; empty: as they come
+  std::filesystem::path stages;      ///< options of the filter's stages; empty: the defaults
   bool calibrate = false;            ///< measures noise and writes options, in place of a run
   std::string depth_noise = "kinect";
   std::string policies = "default";
@@ -342,7 +342,7 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
   return {{"sequence", options.input_words()},
           {"--camera", options.camera.empty() ? "not given" : options.camera.string()},
           {"--fps", options.frame_rate_hz > 0 ? shortest(options.frame_rate_hz) : "as the frames say"},
-          {"--options", options.stages.empty() ? "as they come" : options.stages.string()},
+          {"--options", options.stages.empty() ? "defaults" : options.stages.string()},
           {"--depth-noise", options.depth_noise},
           {"--policies", options.policies},
           {"--ego-motion", options.ego_motion},

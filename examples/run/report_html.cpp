@@ -38,7 +38,7 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
     html += tile("filtered and unfiltered differ by", length_words(*figures.divergence_max_m), "at most; no reference");
   if (const auto recall = run.labels.recall())
     html += tile("moving features dropped", percent_words(*recall),
-                 "recall, of " + std::to_string(run.labels.moving().features));
+                 "recall, of " + std::to_string(run.labels.moving().features) + " features");
   if (const auto alarms = run.labels.false_alarms())
     html += tile("background dropped", percent_words(*alarms),
                  "false positives, of " + std::to_string(run.labels.background().features) + " features");
@@ -48,7 +48,7 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
   for (const StageTime& stage : figures.times)
     if (stage.name == "filter" && stage.ms)
       html += tile("filter's time per frame", stillpoint::format_fixed(stage.ms->median, 1) + " ms",
-                   "median; 95 % below " + stillpoint::format_fixed(stage.ms->p95, 1) + " ms");
+                   "median; p95: " + stillpoint::format_fixed(stage.ms->p95, 1) + " ms");
   return html.empty() ? "" : "<dl class=\"tiles\">" + html + "</dl>\n";
 }
 
@@ -75,19 +75,21 @@ std::string legend(bool has_movers) {
 std::string player(const PictureRoll& roll, bool has_movers) {
   return "<section id=\"frames\"><h2>Frames</h2>\n<div class=\"screen\"><img id=\"picture\" alt=\"Camera image\">"
          "<canvas id=\"drawing\" role=\"img\" aria-label=\"Verdict of each feature\"></canvas></div>\n"
-         "<p id=\"feature\" class=\"more\" aria-live=\"polite\">Point at a feature to see why.</p>\n"
+         "<p id=\"feature\" class=\"more\" aria-live=\"polite\">Point at a feature, or tap it, to see why.</p>\n"
          "<p id=\"status\"></p>\n" +
          legend(has_movers) +
          "<p class=\"switches\"><label><input type=\"checkbox\" id=\"show_features\" checked> features</label> "
          "<label><input type=\"checkbox\" id=\"show_boxes\" checked> boxes</label> "
          "<label><input type=\"checkbox\" id=\"show_offsets\" checked> offsets</label> "
-         "<label><input type=\"checkbox\" id=\"show_movers\" checked> movers</label></p>\n"
+         "<label" +
+         (has_movers ? "" : " hidden") +
+         "><input type=\"checkbox\" id=\"show_movers\" checked> movers</label></p>\n"
          "<table id=\"reasons\"><caption>Why, in this frame</caption><thead><tr><th scope=\"col\">reason</th>"
          "<th scope=\"col\" class=\"n\">kept</th><th scope=\"col\" class=\"n\">dropped</th></tr></thead>"
          "<tbody></tbody></table>\n" +
          (roll.stride() > 1
-              ? "<p class=\"more\">Every " + std::to_string(roll.stride()) +
-                    "th frame has a picture, so that the page stays small; the slider shows the nearest.</p>\n"
+              ? "<p class=\"more\">One frame of " + std::to_string(roll.stride()) +
+                    " has an image, so that the page stays small; the slider shows the nearest image.</p>\n"
               : "") +
          "<noscript><p class=\"more\">Frames and links from the plots to them need JavaScript.</p></noscript>\n"
          "</section>\n";
@@ -129,7 +131,7 @@ constexpr char kClock[] =
 constexpr char kHow[] =
     "<p class=\"more\">All times are seconds since the first frame. Slider, arrow keys (with Shift ten frames), Home, "
     "End "
-    "and the space bar choose the moment; a click into a plot does, too, and every plot marks it. Frames are counted "
+    "and the space bar choose the moment; so does a click into a plot; every plot marks the moment. Frames are counted "
     "from "
     "0, as --start counts them.</p>\n";
 

@@ -260,7 +260,7 @@ inline Plot label_plot(const RunRecord& run) {
                                100 * (frame.*count).share().value_or(detail::kGap));
     plot.lines.push_back(std::move(line));
   };
-  add("on what moves (100 % is right)", "filtered", &FrameSummary::moving);
+  add("on moving objects (100 % is right)", "filtered", &FrameSummary::moving);
   add("on the background (0 % is right)", "unfiltered", &FrameSummary::background);
   plot.description = "By the labels of each frame; a gap where a frame has no such feature.";
   return plot;

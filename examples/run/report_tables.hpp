@@ -98,14 +98,15 @@ inline std::string label_table(const RunRecord& run) {
               {std::to_string(count.features), std::to_string(count.dropped), fixed_or_none(count.share(), 1, 100)},
               meaning);
   };
-  row("on what moves (recall)", score.moving(), "should be dropped: 100 % is right");
+  row("on moving objects (recall)", score.moving(), "should be dropped: 100 % is right");
   row("on the background (false positives)", score.background(), "should be kept: 0 % is right");
-  row("on movers at rest", score.parked(), "either is right");
+  row("on parked objects (moved before)", score.parked(), "either is right");
   return table.html();
 }
 
 inline std::string mover_table(const RunRecord& run, const std::vector<MoverHistory>& movers) {
-  Table table("Movers: seen from, to, in so many frames; greatest speed", {"", "from, s", "to, s", "frames", "m/s"});
+  Table table("Movers: first and last seen, in how many frames, greatest speed",
+              {"", "from, s", "to, s", "frames", "m/s"});
   for (const MoverHistory& mover : movers) {
     std::size_t last = mover.last_frame;
     while (mover.in(last) == nullptr || mover.in(last)->state == stillpoint::MoverState::lost) --last;

@@ -121,11 +121,12 @@ class PlotDrawing {
       plot_.is_stacked ? draw_area(out, i) : draw_line(out, heights_[i]);
     draw_marks(out);
     draw_now(out);
+    for (const Line& line : heights_) draw_label(out, line);  // last: above lines and moments
     return out + "</svg>";
   }
 
  private:
-  static constexpr double kWidth = 520, kHeight = 320, kLeft = 54, kRight = 506, kTop = 30, kStrip = 18;
+  static constexpr double kWidth = 520, kHeight = 320, kLeft = 54, kRight = 506, kTop = 36, kStrip = 18;
 
   double x_at(double x) const { return kLeft + (x - x_.low) / (x_.high - x_.low) * (kRight - kLeft); }
   double y_at(double y) const { return bottom_ - (y - y_.low) / (y_.high - y_.low) * (bottom_ - kTop); }
@@ -194,7 +195,7 @@ class PlotDrawing {
       out += "<path class=\"grid\" d=\"M" + x + ' ' + number(kTop) + 'V' + number(bottom_) + "\"/><text x=\"" + x +
              "\" y=\"" + number(floor + 18) + "\" text-anchor=\"middle\">" + text + "</text>";
     });
-    out += "<text x=\"" + number(2) + "\" y=\"" + number(kTop - 14) + "\">" + escaped(plot_.y_label) + "</text>" +
+    out += "<text x=\"" + number(2) + "\" y=\"" + number(kTop - 20) + "\">" + escaped(plot_.y_label) + "</text>" +
            "<text x=\"" + number(kRight) + "\" y=\"" + number(floor + 37) + "\" text-anchor=\"end\">" +
            escaped(plot_.x_label) + "</text>";
   }
@@ -210,6 +211,9 @@ class PlotDrawing {
       pen_is_down = point.allFinite();
     }
     if (!path.empty()) out += "<path class=\"line " + line.css_class + "\" d=\"" + path + "\"/>";
+  }
+
+  void draw_label(std::string& out, const Line& line) const {
     const auto last =
         std::find_if(line.points.rbegin(), line.points.rend(), [](const auto& p) { return p.allFinite(); });
     if (!line.label.empty() && last != line.points.rend())

@@ -200,7 +200,7 @@ function describe(frame, index) {
     cell(status, name, "b");
     status.append(` ${meaning} `);
   };
-  status.append(`Frame ${frame.number} (time stamp ${frame.stamp}): ${frame.kept} of ${frame.features} features kept` +
+  status.append(`Frame ${frame.number} (timestamp ${frame.stamp}): ${frame.kept} of ${frame.features} features kept` +
                 `${frame.ms > 0 ? `, ${frame.ms.toFixed(1)} ms` : ""}. `);
   line(frame.status, run.terms.statuses[frame.status]);
   for (const warning of frame.warnings) line(warning, run.terms.warnings[warning]);
