@@ -52,7 +52,8 @@ if [[ ! -e $root/complete ]]; then
   cp /etc/resolv.conf /etc/hosts "$root/etc/"
   inside apt-get update -qq
   inside apt-get install -y -qq --no-install-recommends g++ cmake ninja-build ccache libopencv-dev libeigen3-dev \
-    libyaml-cpp-dev libgtest-dev python3-onnx > "$folder/apt.log" 2>&1 || { tail -n 5 "$folder/apt.log" >&2; exit 1; }
+    libyaml-cpp-dev libgtest-dev nlohmann-json3-dev libcli11-dev python3-onnx > "$folder/apt.log" 2>&1 ||
+    { tail -n 5 "$folder/apt.log" >&2; exit 1; }
   touch "$root/complete"
   took "$root made"
 fi
