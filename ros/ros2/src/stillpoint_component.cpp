@@ -96,11 +96,11 @@ class StillpointComponent : public rclcpp::Node {
       throw stillpoint::Error("parameter " + unknown + " is unknown; docs/tuning.md lists the options");
 
     image_in_ = image_transport::create_subscription(
-        this, "image", [this](const Image::ConstSharedPtr& image) { core_.add_image(raw(image)); }, transport,
-        rmw_qos_profile_sensor_data);
+        this, input_topic("image"), [this](const Image::ConstSharedPtr& image) { core_.add_image(raw(image)); },
+        transport, rmw_qos_profile_sensor_data);
     depth_in_ = image_transport::create_subscription(
-        this, "depth", [this](const Image::ConstSharedPtr& depth) { core_.add_depth(raw(depth)); }, depth_transport,
-        rmw_qos_profile_sensor_data);
+        this, input_topic("depth"), [this](const Image::ConstSharedPtr& depth) { core_.add_depth(raw(depth)); },
+        depth_transport, rmw_qos_profile_sensor_data);
     camera_info_in_ = create_subscription<sensor_msgs::msg::CameraInfo>(
         "camera_info", rclcpp::SensorDataQoS(),
         [this](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) { core_.add_camera_info(raw(*info)); });
@@ -120,7 +120,7 @@ class StillpointComponent : public rclcpp::Node {
   std::array<std::string, stillpoint_ros::kInputCount> input_topics() {
     return {input_topic("image"), input_topic("depth"), input_topic("camera_info")};
   }
-  /// Its name after remapping.
+  /// Its name after remapping. Transports of images append to it, and ROS does not remap what they make of it.
   std::string input_topic(const std::string& name) { return get_node_topics_interface()->resolve_topic_name(name); }
 
   /// Unless somebody listens, nothing is copied.
