@@ -25,6 +25,7 @@
 #include "conditions.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/options/options_file.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 
 namespace stillpoint::bench {
 namespace {
@@ -37,6 +38,7 @@ struct Arguments {
   std::string options_file;
   bool without_trackers = false;
   bool with_boxes = false;
+  bool with_movers = false;
   unsigned threads = std::max(1u, std::thread::hardware_concurrency());
 };
 
@@ -49,8 +51,9 @@ struct Row {
 };
 
 /// Runs differ by the seed of the condition and of the filter's own random numbers.
-FrameFilter<> make_filter(const LabelledSequence& sequence, const Arguments& arguments, std::size_t run) {
-  FrameFilter<> filter(sequence.camera);
+FrameFilter<WithMovers<>> make_filter(const LabelledSequence& sequence, const Arguments& arguments, std::size_t run) {
+  FrameFilter<WithMovers<>> filter(sequence.camera);
+  filter.movers.is_on = arguments.with_movers;
   if (!arguments.options_file.empty()) read_options(arguments.options_file, filter);
   filter.ego_motion.options.seed += run;
   return filter;
@@ -173,6 +176,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--threads", arguments.threads, "[one a core]")->check(CLI::Range(1, 256));
   app.add_flag("--without-trackers", arguments.without_trackers, "the filter alone");
   app.add_flag("--boxes", arguments.with_boxes, "give the filter the boxes of boxes.txt");
+  app.add_flag("--movers", arguments.with_movers, "WithMovers<>, whose objects are weighed in the verdicts");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -69,6 +69,7 @@ constexpr const char* explained(stillpoint::Reason reason) noexcept {
     case Reason::no_depth: return "it has no depth here or in the reference frame";
     case Reason::outside_image: return "its keypoint is outside of the image";
     case Reason::keep_floor: return "dynamic, but kept, because too few would be left";
+    case Reason::object_motion: return "the motion of the object that it lies on decided";
   }
   return "";
 }

@@ -17,7 +17,7 @@
 namespace stillpoint_run {
 
 /// How many reasons there are; the one behind the last is the oracle's "label".
-inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(stillpoint::Reason::keep_floor) + 1;
+inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(stillpoint::Reason::object_motion) + 1;
 
 namespace detail {
 

@@ -14,11 +14,13 @@ namespace stillpoint_run {
 struct SwitchedMovers {
   using Needs = stillpoint::MoverTracking::Needs;
 
+  SwitchedMovers() { tracking.gives_back = false; }  // the verdicts are those of DefaultPolicies
+
   stillpoint::MoverTracking tracking;
 
   template <class Camera>
   void track(const stillpoint::FrameView& frame, const stillpoint::Observations& observations,
-             const stillpoint::Motion& motion, const Camera& camera, stillpoint::span<const stillpoint::Label> labels,
+             const stillpoint::Motion& motion, const Camera& camera, stillpoint::span<stillpoint::Label> labels,
              stillpoint::Movers& result, stillpoint::Workspace& workspace) {
     tracking.track(frame, observations, motion, camera, labels, result, workspace);
   }

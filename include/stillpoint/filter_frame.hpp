@@ -141,6 +141,8 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
  private:
+  static constexpr bool kHasMovers = !std::is_same_v<MoversOf<Policies>, NoMovers>;
+
   Status judge(const FrameView& frame) {
     const FrameView reference = history_.back(1).view();
     Motion& motion = result_.motion_;
@@ -190,15 +192,15 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::gate, [&] { learn(gate, observations_, labels); });
     timings.run(Stage::memory, [&] { memory.update(observations_, motion, evidence, labels, workspace_); });
     timings.run(Stage::match, [&] { learn(matcher, observations_, labels); });
+    if constexpr (kHasMovers)  // without, not even a look at the clock
+      timings.run(Stage::movers,
+                  [&] { movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_); });
     timings.run(Stage::verdict, [&] {
-      mask_prediction.remember(matches, labels, frame.timestamp_s, frame.timestamp_s - reference.timestamp_s);
+      mask_prediction.remember(matches, labels, frame.timestamp_s, matches.elapsed_s);
+      if constexpr (kHasMovers) mask_prediction.follow(result_.movers_, matches, camera);
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches.current.depth_m);
     });
-    if constexpr (!std::is_same_v<MoversOf<Policies>,
-                                  NoMovers>)  // which then costs nothing, not even a look at the clock
-      timings.run(Stage::movers,
-                  [&] { movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_); });
     result_.warnings_ = motion.warnings;
     if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
     return motion.status;

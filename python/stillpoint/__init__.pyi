@@ -73,6 +73,7 @@ class Reason(enum.IntEnum):
     no_depth = 9
     outside_image = 10
     keep_floor = 11
+    object_motion = 12
 
 class Mobility(enum.IntEnum):
     """What is known of an object's class: a wall is fixed, a chair is movable, a person is dynamic."""

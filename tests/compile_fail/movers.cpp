@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Movers that do not see the frame.
-// expected: stillpoint: Policies::Movers must offer void track(const FrameView&, const Observations&, const Motion&, const Camera&, span<const Label>, Movers&, Workspace&) and void reset(); see movers/no_movers.hpp
+// expected: stillpoint: Policies::Movers must offer void track(const FrameView&, const Observations&, const Motion&, const Camera&, span<Label>, Movers&, Workspace&) and void reset(); see movers/no_movers.hpp
 
 #include "sound_policies.hpp"
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 
 // reference FOLDER [RECORDED]: writes a rendered sequence in the layout of the TUM benchmark, and what the C++ says of
-// it, bit for bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt. RECORDED is a folder
-// of that layout: recorded_<i>.bin are the features of its first frames. tests/python/test_equal_to_cpp.py calls the
-// same in Python.
+// it, bit for bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt; the same with
+// movers in FOLDER/movers. RECORDED is a folder of that layout: recorded_<i>.bin are the features of its first frames.
+// tests/python/test_equal_to_cpp.py calls the same in Python.
 
 #include <cstdint>
 #include <cstdio>
@@ -179,7 +179,7 @@ void run_recorded(const fs::path& recorded, const fs::path& folder) {
   }
 }
 
-void run(const fs::path& folder) {
+void run(const fs::path& folder, bool has_movers) {
   stillpoint::synthetic::SceneOptions options;
   options.width = 320;
   options.height = 240;
@@ -195,6 +195,7 @@ void run(const fs::path& folder) {
               << "\ndepth_factor: " << text(sequence.scene().sensor.depth_factor) << '\n';
 
   stillpoint::FrameFilter<stillpoint::WithMovers<>> filter(camera);
+  filter.movers.is_on = has_movers;
   filter.movers.options.least_path_m = 0.003;  // of these few frames
   filter.movers.options.least_path_sigmas = 1;
   stillpoint::SyntheticFrame frame;
@@ -255,7 +256,8 @@ void run(const fs::path& folder) {
 int main(int argument_count, char** arguments) {
   try {
     if (argument_count != 2 && argument_count != 3) throw stillpoint::Error("usage: reference FOLDER [RECORDED]");
-    run(arguments[1]);
+    run(arguments[1], false);
+    run(fs::path(arguments[1]) / "movers", true);
     if (argument_count == 3) run_recorded(arguments[2], arguments[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "reference: %s\n", error.what());

@@ -58,6 +58,7 @@ window.addEventListener("load", () => setTimeout(() => {
   tell("mover named", /id 1 [0-9.]+ m\/s/.test(document.getElementById("status").textContent));
   const trail = document.querySelector('.now[data-path="mover 1"]'), placed = trail.getAttribute("transform");
   slide(Number(slider.max) - 1);
+  tell("labels apart", freeTop(10, 5, 90, [[50, 0, 90], [60, 20, 90], [101, 40, 90]]) === 40);
   tell("mover's mark moves", trail.getAttribute("transform") !== placed);
 
   // Each plot marks the moment: where the last and the first frame are.
@@ -155,6 +156,7 @@ const std::string kAsExpected =
     "drawn: true\n"
     "mover drawn: true\n"
     "mover named: true\n"
+    "labels apart: true\n"
     "mover's mark moves: true\n"
     "plots: 9\n"
     "marks that stay: 0\n"

@@ -112,13 +112,26 @@ function drawMoverBox(paper, mover, seen, scale) {
   paper.setLineDash([]);
 }
 
-function drawMoverLabel(paper, mover, seen, scale) {
+const labelHeight = 20;
+
+/// The first place from `top` downwards where a label of this width hides none of those that are `taken`: [left, top,
+/// width] each.
+function freeTop(left, top, wide, taken) {
+  const hides = ([otherLeft, otherTop, otherWide]) =>
+    left < otherLeft + otherWide && otherLeft < left + wide && Math.abs(top - otherTop) < labelHeight;
+  for (let hidden = taken.find(hides); hidden; hidden = taken.find(hides)) top = hidden[1] + labelHeight;
+  return top;
+}
+
+function drawMoverLabel(paper, mover, seen, scale, taken) {
   const [x, y] = seen.slice(0, 2).map((value) => value * scale);
   paper.font = "600 13px system-ui, sans-serif";
   const text = moverLabel(mover, seen), wide = paper.measureText(text).width + 10;
-  const left = Math.max(0, Math.min(x - 1, paper.canvas.clientWidth - wide)), top = Math.max(0, y - 20);
+  const left = Math.max(0, Math.min(x - 1, paper.canvas.clientWidth - wide));
+  const top = freeTop(left, Math.max(0, y - labelHeight), wide, taken);
+  taken.push([left, top, wide]);
   paper.fillStyle = moverColours[mover.colour];
-  paper.fillRect(left, top, wide, 20);
+  paper.fillRect(left, top, wide, labelHeight);
   paper.fillStyle = "#141414";
   paper.fillText(text, left + 5, top + 14.5);
 }
@@ -135,9 +148,9 @@ function draw() {
   paper.lineWidth = 1.3;
   if (byId("show_features").checked) for (const feature of features) drawFeature(paper, feature, scale);
   if (byId("show_movers").checked) {
-    const movers = moversIn(picture.frame);
+    const movers = moversIn(picture.frame), labels = [];
     for (const [mover, seen] of movers) drawMoverBox(paper, mover, seen, scale);
-    for (const [mover, seen] of movers) drawMoverLabel(paper, mover, seen, scale);
+    for (const [mover, seen] of movers) drawMoverLabel(paper, mover, seen, scale, labels);
   }
   if (!pointed) return;
   paper.strokeStyle = "#fff";

@@ -60,6 +60,7 @@ struct Movers {
   std::vector<Mover> list;               ///< in the order of their identifiers
   std::vector<std::uint32_t> feature;    ///< indices of the host's keypoints, mover by mover
   std::vector<Vector2f> pixel;           ///< of the keypoints and of the filter's own corners, mover by mover
+  std::vector<std::uint32_t> match;      ///< of each of these: the host's keypoints first, then the corners
   std::vector<std::int32_t> of_feature;  ///< index into `list` of each host's keypoint, or `kNone`
 
   /// Nothing is allocated later, as long as there are not more.
@@ -67,12 +68,14 @@ struct Movers {
     list.reserve(movers);
     feature.reserve(features);
     pixel.reserve(features);
+    match.reserve(features);
   }
 
   void begin(std::size_t feature_count) {
     list.clear();
     feature.clear();
     pixel.clear();
+    match.clear();
     refill(of_feature, feature_count, kNone);
   }
 };

@@ -43,6 +43,7 @@ enum class Reason : std::uint8_t {
   no_depth,         ///< no depth here or in the reference frame
   outside_image,    ///< its keypoint is outside the image or not finite
   keep_floor,       ///< dynamic, but kept, because too few would be left
+  object_motion,    ///< the motion of the object that it lies on decided (movers)
 };
 
 constexpr const char* to_string(Verdict verdict) noexcept {
@@ -67,6 +68,7 @@ constexpr const char* to_string(Reason reason) noexcept {
     case Reason::no_depth: return "no_depth";
     case Reason::outside_image: return "outside_image";
     case Reason::keep_floor: return "keep_floor";
+    case Reason::object_motion: return "object_motion";
   }
   return "?";
 }

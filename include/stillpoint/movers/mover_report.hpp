@@ -45,6 +45,7 @@ class MoverReport {
       for (std::size_t i = 0; i < matches.size(); ++i) {
         if (features.object_of[i] != static_cast<std::int32_t>(o)) continue;
         result.pixel.push_back(matches.current.pixel[i]);
+        result.match.push_back(static_cast<std::uint32_t>(i));
         if (i >= matches.host_count) continue;
         result.feature.push_back(static_cast<std::uint32_t>(i));
         result.of_feature[i] = static_cast<std::int32_t>(result.list.size());

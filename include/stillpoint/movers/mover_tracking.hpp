@@ -26,6 +26,7 @@
 #include "stillpoint/movers/mover_report.hpp"
 #include "stillpoint/movers/moving_features.hpp"
 #include "stillpoint/movers/object_association.hpp"
+#include "stillpoint/movers/object_hypothesis.hpp"
 #include "stillpoint/movers/object_identity.hpp"
 #include "stillpoint/movers/object_update.hpp"
 #include "stillpoint/movers/predicted_points.hpp"
@@ -48,13 +49,15 @@ class MoverTracking {
     double pixel_sigma = 0.5;         ///< of a match, pixels
   };
   Options options;
-  bool is_on = true;  ///< off: objects are forgotten, and nothing is spent; may change between frames. No option
+  bool is_on = true;       ///< off: objects are forgotten, and nothing is spent; may change between frames. No option
+  bool gives_back = true;  ///< an object's motion is weighed in the verdicts of the features on it. No option
 
   /// @param motion  of the camera, in metres
+  /// @param labels  of the filter; those that an object's motion explains better are changed (`gives_back`)
   /// @param result  empty, with an entry for each of the host's features
   template <class Camera>
   void track(const FrameView& frame, const Observations& observations, const Motion& motion, const Camera& camera,
-             span<const Label> labels, Movers& result, Workspace& workspace) {
+             span<Label> labels, Movers& result, Workspace& workspace) {
     if (!is_on) return reset();
     const Workspace::Scope scope(workspace);
     const Matches& matches = observations.matches;
@@ -69,7 +72,9 @@ class MoverTracking {
                                           options.pixel_sigma,
                                           workspace.take<std::int32_t>(matches.size(), kNone)};
     for (TrackedObject& object : objects_) object.predict(motion.current_from_reference, matches.elapsed_s);
-    const DynamicPoints loose = claim(features, workspace);
+    const PixelGrid followed(matches.current.pixel, features.beside_px(), workspace,
+                             [&](std::size_t i) { return !objects_.empty() && matches.metric(i); });
+    const DynamicPoints loose = claim(features, followed, workspace);
     place(loose, features, workspace);
     ObjectAssociation::merge(objects_, features.object_of);
     for (std::size_t o = 0; o < objects_.size(); ++o) {
@@ -77,6 +82,7 @@ class MoverTracking {
     }
     confirm(features.object_of, frame.timestamp_s);
     forget(features.object_of, frame.timestamp_s);
+    if (gives_back) ObjectHypothesis::run(objects_, features, followed, labels, workspace);
     MoverReport::write(objects_, features, observations.regions, result, workspace);
   }
 
@@ -91,12 +97,10 @@ class MoverTracking {
   /// Gives features to the objects that they are of. What does not look dynamic may be of an object that hardly moves.
   /// @return the dynamic features that no object claims
   template <class Camera>
-  DynamicPoints claim(const MovingFeatures<Camera>& features, Workspace& workspace) const {
+  DynamicPoints claim(const MovingFeatures<Camera>& features, const PixelGrid& followed, Workspace& workspace) const {
     const Matches& matches = features.matches;
     DynamicPoints loose(matches.size(), workspace);
     const PredictedPoints predicted(objects_, features.camera, matches.pixel_scale, workspace);
-    const PixelGrid followed(matches.current.pixel, features.beside_px(), workspace,
-                             [&](std::size_t i) { return !objects_.empty() && matches.metric(i); });
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const bool is_dynamic = features.is_dynamic(i);
       if (!matches.current.has_depth(i) || (!is_dynamic && objects_.empty())) continue;

@@ -66,7 +66,7 @@ struct MovingFeatures {
   /// By its own step, else by that of the nearest feature on its surface that has one.
   /// @param followed  the features with a step
   FeatureVelocity velocity(std::size_t i, const PixelGrid& followed) const {
-    const std::size_t beside = matches.metric(i) ? i : followed_beside(i, followed);
+    const std::size_t beside = with_step(i, followed);
     if (beside == matches.size()) return {};
     FeatureVelocity velocity;
     velocity.is_known = true;
@@ -75,6 +75,11 @@ struct MovingFeatures {
     velocity.depth_sigma_m_s =
         std::hypot(matches.current.depth_sigma_m[beside], matches.reference.depth_sigma_m[beside]) / elapsed_s();
     return velocity;
+  }
+
+  /// The feature itself if it has a step, else the nearest on its surface that has one; the number of matches if none.
+  std::size_t with_step(std::size_t i, const PixelGrid& followed) const {
+    return matches.metric(i) ? i : followed_beside(i, followed);
   }
 
   /// How far a feature is from those whose steps it may borrow: a cell of support corners.

@@ -17,7 +17,7 @@ namespace stillpoint {
 /// The null stage: no movers.
 struct NoMovers {
   template <class Camera>
-  void track(const FrameView&, const Observations&, const Motion&, const Camera&, span<const Label>, Movers&,
+  void track(const FrameView&, const Observations&, const Motion&, const Camera&, span<Label>, Movers&,
              Workspace&) const noexcept {}
   void reset() const noexcept {}
 };

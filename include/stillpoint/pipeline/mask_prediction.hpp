@@ -16,6 +16,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/mover.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/score.hpp"
@@ -48,9 +49,32 @@ class MaskPrediction {
     pixel_ = matches.current.pixel;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f step = matches.current.pixel[i] - matches.reference.pixel[i];
-      seen_.push_back({step / static_cast<float>(interval_s), static_cast<float>(matches.current.depth_m[i]),
+      const bool followed = matches.matched(i);
+      seen_.push_back({followed ? Vector2f(step / static_cast<float>(interval_s)) : Vector2f::Zero(),
+                       static_cast<float>(matches.current.depth_m[i]),
                        static_cast<float>(kSameSurface.at(matches.current.depth_sigma_m[i])), moves(labels[i]),
-                       matches.matched(i)});
+                       followed});
+    }
+  }
+
+  /// Objects that are followed carry their features: what moves as one body goes as its object does, by the motion of
+  /// all of its features in place of each one's match; a limb goes so where nothing beside it was followed.
+  template <class Camera>
+  void follow(const Movers& movers, const Matches& matches, const Camera& camera) {
+    if (seen_.empty()) return;
+    for (const Mover& mover : movers.list) {
+      if (mover.state != MoverState::moving) continue;
+      for (std::size_t k = mover.first_pixel; k < mover.first_pixel + mover.pixel_count; ++k) {
+        const std::size_t i = movers.match[k];
+        Seen& seen = seen_[i];
+        if (!matches.current.has_depth(i) || (seen.followed && !mover.has_rotation)) continue;
+        const Vector3d& point = matches.current.point[i];
+        const Vector3d next = mover.current_from_reference * point;
+        if (!(next.z() > 0)) continue;
+        const Vector2d step = camera.distort(camera.project(next)) - camera.distort(camera.project(point));
+        seen.velocity_px = (step / matches.elapsed_s).template cast<float>();
+        seen.followed |= mover.has_rotation;
+      }
     }
   }
 
@@ -86,11 +110,11 @@ class MaskPrediction {
 
  private:
   struct Seen {
-    Vector2f velocity_px;  ///< per second, if it was followed
+    Vector2f velocity_px;  ///< per second, by its match or its object; else 0
     float depth_m;         ///< 0 where there is none
     float tolerance_m;     ///< by which depths on its surface may differ
     bool moves;
-    bool followed;
+    bool followed;  ///< its own velocity is better than that of those around it
   };
   static constexpr int kCell_px = 4;
   static constexpr double kLongestGap_s = 1.0;  // farther ahead nothing is predicted
@@ -111,7 +135,7 @@ class MaskPrediction {
     return 2 * moving > all;
   }
 
-  /// How fast feature `i` went since the reference frame: by its own match, else with the moving ones around it.
+  /// How fast feature `i` goes: by itself, else with the moving ones around it, else with its object.
   Vector2f velocity_px(std::size_t i, const PixelGrid& followed) const {
     if (seen_[i].followed) return seen_[i].velocity_px;
     const auto reach_px = static_cast<float>(2 * options.reach_px);
@@ -122,7 +146,7 @@ class MaskPrediction {
       weight += near;
       sum += near * seen_[j].velocity_px;
     });
-    return weight > 0 ? sum / weight : Vector2f::Zero();
+    return weight > 0 ? Vector2f(sum / weight) : seen_[i].velocity_px;
   }
 
   /// Marks the cells in which feature `i` and its surface will be, a step from here.

@@ -73,7 +73,7 @@ template <class P> struct is_keep_floor<P, std::enable_if_t<detail::returns<std:
 template <class P, class Camera, class = void> struct is_movers : std::false_type {};
 template <class P, class Camera> struct is_movers<P, Camera, std::void_t<decltype(std::declval<P&>().track(
     std::declval<const FrameView&>(), std::declval<const Observations&>(), std::declval<const Motion&>(),
-    std::declval<const Camera&>(), std::declval<span<const Label>>(), std::declval<Movers&>(),
+    std::declval<const Camera&>(), std::declval<span<Label>>(), std::declval<Movers&>(),
     std::declval<Workspace&>())), decltype(std::declval<P&>().reset())>> : std::true_type {};
 
 template <class P, class = void> struct is_depth_noise : std::false_type {};
@@ -169,7 +169,7 @@ struct PolicyContract {
       "span<Label>, Workspace&); see verdict/keep_floor.hpp");
   static_assert(is_movers<MoversOf<Policies>, Camera>::value,
                 "stillpoint: Policies::Movers must offer void track(const FrameView&, const Observations&, const "
-                "Motion&, const Camera&, span<const Label>, Movers&, Workspace&) and void reset(); see "
+                "Motion&, const Camera&, span<Label>, Movers&, Workspace&) and void reset(); see "
                 "movers/no_movers.hpp");
   static_assert(has_history_length<Policies>::value,
                 "stillpoint: Policies must have static constexpr std::size_t kHistoryLength, 1 or more; see "

@@ -17,6 +17,7 @@
 #include "clip.hpp"
 #include "mock_policies.hpp"
 #include "stillpoint/policies.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 
 namespace stillpoint::call_order_test {
 namespace {
@@ -128,6 +129,14 @@ struct RecordingKeepFloor : KeepFloor, mock::Stage {
   }
 };
 
+struct RecordingMovers : MoverTracking, mock::Stage {
+  template <class... A>
+  auto track(A&&... a) -> decltype(std::declval<MoverTracking&>().track(std::forward<A>(a)...)) {
+    return note("movers.track"), MoverTracking::track(std::forward<A>(a)...);
+  }
+  void reset() { note("movers.reset"), MoverTracking::reset(); }
+};
+
 /// Camera and depth noise have no place in the order: they are asked all the time.
 struct RecordingPolicies : DefaultPolicies {
   using Prior = RecordingPrior;
@@ -139,6 +148,7 @@ struct RecordingPolicies : DefaultPolicies {
   using Classifier = RecordingClassifier;
   using Memory = RecordingMemory;
   using KeepFloor = RecordingKeepFloor;
+  using Movers = RecordingMovers;
 };
 template <class Recording, class Real>
 constexpr bool records = std::is_base_of_v<Real, Recording>;
@@ -148,8 +158,9 @@ static_assert(records<RecordingPrior, DefaultPolicies::Prior> && records<Recordi
                   records<RecordingScorer, DefaultPolicies::Scorer> && records<RecordingGate, DefaultPolicies::Gate> &&
                   records<RecordingClassifier, DefaultPolicies::Classifier> &&
                   records<RecordingMemory, DefaultPolicies::Memory> &&
-                  records<RecordingKeepFloor, DefaultPolicies::KeepFloor>,
-              "the stages of DefaultPolicies");
+                  records<RecordingKeepFloor, DefaultPolicies::KeepFloor> &&
+                  records<RecordingMovers, WithMovers<>::Movers>,
+              "the stages of WithMovers<DefaultPolicies>");
 
 /// The numbered lines below a heading of docs/extending.md, each of which begins with `stage.member`.
 Calls documented(const std::string& heading) {
@@ -172,7 +183,7 @@ class CallOrder : public testing::Test {
   CallOrder() {
     filter_.prior.log = filter_.matcher.log = filter_.depth_lookup.log = filter_.ego_motion.log = &log_;
     filter_.scorer.log = filter_.gate.log = filter_.classifier.log = filter_.memory.log = filter_.keep_floor.log =
-        &log_;
+        filter_.movers.log = &log_;
   }
 
   const FrameResult& run(std::size_t f) {
@@ -220,7 +231,7 @@ TEST_F(CallOrder, OfAResetIsTheDocumentedOne) {
 }
 
 TEST_F(CallOrder, RecordingStagesAnswerAsTheRealOnes) {
-  FrameFilter<> real(mock::Clip::camera());
+  FrameFilter<WithMovers<>> real(mock::Clip::camera());
   mock::Answer recorded, expected;
   for (std::size_t f = 0; f < 5; ++f) {
     recorded.add(run(f));

@@ -5,9 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/workspace.hpp"
 
 namespace stillpoint {
@@ -103,6 +105,68 @@ TEST_F(MaskPredictionTest, FeatureWithoutAMatchGoesWithTheMovingOnesAroundIt) {
   add_unmatched({80, 60}, Verdict::dynamic);
   predict();
   EXPECT_TRUE(drops(90, 60));
+}
+
+// An object 1 m ahead that goes 2 cm to the right in 0.1 s: 10 px at a focal length of 500 px. Its feature's own match
+// says 4.
+class FollowedObject : public MaskPredictionTest {
+ protected:
+  void add_on_object(const Vector2f& from, const Vector2f& to) {
+    add(from, to, Verdict::dynamic, 1.0);
+    matches.current.point.back() = kCamera.back_project(to.cast<double>(), 1.0);
+    movers.pixel.push_back(to);
+    movers.match.push_back(static_cast<std::uint32_t>(matches.size() - 1));
+  }
+  void follow(bool has_rotation, MoverState state = MoverState::moving) {
+    Mover mover;
+    mover.state = state;
+    mover.has_rotation = has_rotation;
+    mover.current_from_reference.translation().x() = 0.02;
+    mover.pixel_count = movers.pixel.size();
+    movers.list = {mover};
+    matches.elapsed_s = kInterval_s;
+    prediction.remember(matches, labels, kInterval_s, kInterval_s);
+    prediction.follow(movers, matches, kCamera);
+    paint();
+  }
+
+  const Camera kCamera{500, 500, 80, 60, kWidth, kHeight};
+  Movers movers;
+};
+
+TEST_F(FollowedObject, WhatMovesAsOneBodyGoesAsItsObject) {
+  add_on_object({76, 60}, {80, 60});
+  follow(true);
+  EXPECT_TRUE(drops(90, 60));
+  EXPECT_FALSE(drops(84, 60)) << "its own match is one of many";
+}
+
+TEST_F(FollowedObject, LimbsGoByTheirOwnMatch) {
+  add_on_object({76, 60}, {80, 60});
+  follow(false);
+  EXPECT_TRUE(drops(84, 60));
+  EXPECT_FALSE(drops(90, 60));
+}
+
+TEST_F(FollowedObject, LimbWithoutAMatchGoesWithThoseAroundItElseAsItsObject) {
+  add_on_object({80, 60}, {80, 60});
+  matches.state.back() = MatchState::lost;
+  follow(false);
+  EXPECT_TRUE(drops(90, 60)) << "nothing beside it was followed";
+  add({96, 60}, {100, 60}, Verdict::dynamic, 1.0);
+  follow(false);
+  EXPECT_TRUE(drops(84, 60));
+  EXPECT_FALSE(drops(90, 60));
+}
+
+TEST_F(FollowedObject, WhatIsParkedOrHasNoDepthGoesByItsMatch) {
+  add_on_object({76, 60}, {80, 60});
+  follow(true, MoverState::parked);
+  EXPECT_TRUE(drops(84, 60));
+  matches.current.depth_m.back() = 0;
+  follow(true);
+  EXPECT_TRUE(drops(84, 60));
+  EXPECT_FALSE(drops(90, 60));
 }
 
 // A thing 1 m away ends at u = 80, the wall behind it is 3 m away. It moves 8 px to the left.

@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// What explains a feature better: standing still, or the motion of the object that it lies on?
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/mover.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/movers/moving_features.hpp"
+#include "stillpoint/movers/object_motion.hpp"
+#include "stillpoint/movers/tracked_object.hpp"
+
+namespace stillpoint {
+
+/// Gives what the objects know back to the verdicts. The filter asks of a feature whether it moves at all; here is a
+/// motion that it would have. Its likelihood ratio to standing still is added to the log-odds that the filter found.
+class ObjectHypothesis {
+ public:
+  /// Changes verdicts of features on objects that surely move, and whose they are. A feature without a probability, or
+  /// that neither motion explains, stays as it is.
+  /// @param followed  the features with a step
+  template <class Camera>
+  static void run(const std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features,
+                  const PixelGrid& followed, span<Label> labels, Workspace& workspace) {
+    if (std::none_of(objects.begin(), objects.end(), surely_moves)) return;
+    const Workspace::Scope scope(workspace);
+    const Matches& matches = features.matches;
+    const float reach_px = kReach_px * matches.pixel_scale;
+    const Pose reference_from_current = inverted(features.current_from_reference);
+    const PixelGrid members(matches.current.pixel, reach_px, workspace, [&](std::size_t i) {
+      const std::int32_t object = features.object_of[i];
+      return object != MovingFeatures<Camera>::kNone && features.is_dynamic(i) && matches.current.has_depth(i) &&
+             surely_moves(objects[static_cast<std::size_t>(object)]);
+    });
+    const span<std::int32_t> beside = workspace.take<std::int32_t>(matches.size(), MovingFeatures<Camera>::kNone);
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      if (is_open(labels[i]) && matches.current.has_depth(i)) beside[i] = object_beside(i, features, members, reach_px);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (beside[i] == MovingFeatures<Camera>::kNone) continue;
+      const std::size_t stepped = features.with_step(i, followed);
+      if (stepped == matches.size()) continue;
+      const TrackedObject& object = objects[static_cast<std::size_t>(beside[i])];
+      const double says =
+          log_likelihood_ratio(features.pair(stepped), object.mover.current_from_reference * reference_from_current);
+      const double prior = std::log(static_cast<double>(labels[i].probability) / (1.0 - labels[i].probability));
+      const bool moves = prior + says > 0;
+      if (says == 0 || moves == features.is_dynamic(i)) continue;
+      labels[i].verdict = moves ? Verdict::dynamic : Verdict::kept;
+      labels[i].keep = !moves;
+      labels[i].reason = Reason::object_motion;
+      features.object_of[i] = moves ? beside[i] : MovingFeatures<Camera>::kNone;
+    }
+  }
+
+ private:
+  static constexpr float kReach_px = 8.0f;         // for a focal length of 525 px: half of a support corner's cell
+  static constexpr double kSameSurface_m = 0.06;   // between neighbours on one surface
+  static constexpr double kSurely_m_s = 0.2;       // slower ones' motion is within the noise of standing still
+  static constexpr std::size_t kFewest = 20;       // features whose common motion is well known
+  static constexpr double kApart_sq = 9.0;         // χ²: the two motions differ by more than noise at this feature
+  static constexpr double kUnexplained_sq = 16.0;  // χ²: neither motion explains it
+  static constexpr double kMostSaid = 1.386;       // ln 4: steps of neighbours share errors, and the filter used them
+
+  static bool surely_moves(const TrackedObject& object) {
+    return object.is_confirmed && object.is_seen && object.members >= kFewest &&
+           object.mover.state == MoverState::moving && object.linear.velocity().norm() > kSurely_m_s;
+  }
+
+  /// Could an object's motion change it?
+  static bool is_open(const Label& label) {
+    static const float least = static_cast<float>(1.0 / (1.0 + std::exp(kMostSaid)));
+    return label.probability > least && label.probability < 1.0f - least;
+  }
+
+  /// That it moves with the object, to that it stands; 0 where the two can't be told apart.
+  static double log_likelihood_ratio(const WhitenedPair& pair, const Pose& moved) {
+    WhitenedPair carried = pair;
+    carried.current = moved * pair.reference;
+    if (squared_distance(carried, Pose::Identity()) < kApart_sq) return 0;
+    const double stands_sq = squared_distance(pair, Pose::Identity()), moves_sq = squared_distance(pair, moved);
+    if (!(std::min(stands_sq, moves_sq) < kUnexplained_sq)) return 0;
+    return std::clamp(0.5 * (stands_sq - moves_sq), -kMostSaid, kMostSaid);
+  }
+
+  /// The object of the nearest other member on its surface.
+  template <class Camera>
+  static std::int32_t object_beside(std::size_t i, const MovingFeatures<Camera>& features, const PixelGrid& members,
+                                    float reach_px) {
+    const FrameFeatures& current = features.matches.current;
+    std::int32_t nearest = MovingFeatures<Camera>::kNone;
+    float least = std::numeric_limits<float>::infinity();
+    members.within(current.pixel[i], reach_px, [&](std::size_t j, float squared) {
+      if (j == i || !(squared < least) || !(std::abs(current.depth_m[j] - current.depth_m[i]) < kSameSurface_m)) return;
+      least = squared;
+      nearest = features.object_of[j];
+    });
+    return nearest;
+  }
+};
+
+}  // namespace stillpoint
