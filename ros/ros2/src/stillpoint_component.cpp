@@ -4,6 +4,7 @@
 // The ROS 2 component: image, depth, camera_info and detections in; masks, depth with holes, movers and diagnostics
 // out. docs/ros.md says how to run it; all that is not ROS is in stillpoint_ros/, shared with the ROS 1 node.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <diagnostic_msgs/msg/diagnostic_array.hpp>
@@ -21,6 +22,7 @@
 #endif
 
 #include "messages.hpp"
+#include "stillpoint_component.hpp"
 #include "stillpoint_ros/detections.hpp"
 #include "stillpoint_ros/mover_messages.hpp"
 #include "stillpoint_ros/node_core.hpp"
@@ -41,8 +43,11 @@ class RosParameters {
     rcl_interfaces::msg::ParameterDescriptor descriptor = read_only();
     descriptor.dynamic_typing = true;
     const rclcpp::ParameterValue found = node_.declare_parameter(name, rclcpp::ParameterValue(value), descriptor);
-    return found.get_type() == rclcpp::ParameterType::PARAMETER_INTEGER ? static_cast<double>(found.get<std::int64_t>())
-                                                                        : found.get<double>();
+    if (found.get_type() == rclcpp::ParameterType::PARAMETER_INTEGER)
+      return static_cast<double>(found.get<std::int64_t>());
+    if (found.get_type() != rclcpp::ParameterType::PARAMETER_DOUBLE)
+      throw stillpoint::Error("parameter " + name + " is '" + rclcpp::to_string(found) + "', expected a number");
+    return found.get<double>();
   }
 
   /// The names that were given, but for those of ROS itself.
@@ -91,11 +96,11 @@ class StillpointComponent : public rclcpp::Node {
       throw stillpoint::Error("parameter " + unknown + " is unknown; docs/tuning.md lists the options");
 
     image_in_ = image_transport::create_subscription(
-        this, "image", [this](const Image::ConstSharedPtr& image) { core_.add_image(raw(image)); }, transport,
-        rmw_qos_profile_sensor_data);
+        this, input_topic("image"), [this](const Image::ConstSharedPtr& image) { core_.add_image(raw(image)); },
+        transport, rmw_qos_profile_sensor_data);
     depth_in_ = image_transport::create_subscription(
-        this, "depth", [this](const Image::ConstSharedPtr& depth) { core_.add_depth(raw(depth)); }, depth_transport,
-        rmw_qos_profile_sensor_data);
+        this, input_topic("depth"), [this](const Image::ConstSharedPtr& depth) { core_.add_depth(raw(depth)); },
+        depth_transport, rmw_qos_profile_sensor_data);
     camera_info_in_ = create_subscription<sensor_msgs::msg::CameraInfo>(
         "camera_info", rclcpp::SensorDataQoS(),
         [this](const sensor_msgs::msg::CameraInfo::ConstSharedPtr& info) { core_.add_camera_info(raw(*info)); });
@@ -112,11 +117,11 @@ class StillpointComponent : public rclcpp::Node {
   using ImagePublisher = rclcpp::Publisher<Image>::SharedPtr;
   static constexpr std::size_t kQueue = 5;
 
-  std::array<std::string, stillpoint_ros::kInputCount> input_topics() const {
-    const auto topics = get_node_topics_interface();
-    return {topics->resolve_topic_name("image"), topics->resolve_topic_name("depth"),
-            topics->resolve_topic_name("camera_info")};
+  std::array<std::string, stillpoint_ros::kInputCount> input_topics() {
+    return {input_topic("image"), input_topic("depth"), input_topic("camera_info")};
   }
+  /// Its name after remapping. Transports of images append to it, and ROS does not remap what they make of it.
+  std::string input_topic(const std::string& name) { return get_node_topics_interface()->resolve_topic_name(name); }
 
   /// Unless somebody listens, nothing is copied.
   static void publish_if_wanted(const ImagePublisher& publisher, const stillpoint::ImageView& image,
@@ -183,6 +188,10 @@ class StillpointComponent : public rclcpp::Node {
 #endif
   rclcpp::TimerBase::SharedPtr timer_;
 };
+
+std::shared_ptr<rclcpp::Node> make_stillpoint(const rclcpp::NodeOptions& options) {
+  return std::make_shared<StillpointComponent>(options);
+}
 
 }  // namespace stillpoint_ros2
 
