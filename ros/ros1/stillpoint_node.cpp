@@ -9,10 +9,12 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <visualization_msgs/MarkerArray.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,19 +24,20 @@
 
 namespace stillpoint_ros1 {
 
-/// Private parameters of the node, with '/' between groups.
+/// Private parameters of the node, with '/' between groups. One of another type than its option's is an Error.
 class RosParameters {
  public:
   explicit RosParameters(const ros::NodeHandle& node) : node_(node) {}
 
   template <class Value>
   Value get(const std::string& name, const Value& value) const {
-    return node_.param(ros_name(name), value);
+    Value found = value;
+    return given(name, found) ? found : value;
   }
   /// ROS 1 has integers of 32 bit.
   std::int64_t get(const std::string& name, std::int64_t value) const {
     int found = 0;
-    return node_.getParam(ros_name(name), found) ? found : value;
+    return given(name, found) ? found : value;
   }
 
   /// The names that were given, as the options are called.
@@ -48,6 +51,20 @@ class RosParameters {
   }
 
  private:
+  template <class Value>
+  bool given(const std::string& name, Value& found) const {
+    if (node_.getParam(ros_name(name), found)) return true;
+    XmlRpc::XmlRpcValue other;
+    if (!node_.getParam(ros_name(name), other)) return false;
+    std::ostringstream text;
+    text << other;
+    throw stillpoint::Error("parameter " + name + " is '" + text.str() + "', expected " + type_name(found));
+  }
+  static const char* type_name(bool) { return "true or false"; }
+  static const char* type_name(int) { return "a whole number"; }
+  static const char* type_name(double) { return "a number"; }
+  static const char* type_name(const std::string&) { return "a word"; }
+
   static std::string exchanged(std::string text, char from, char to) {
     for (char& c : text)
       if (c == from) c = to;

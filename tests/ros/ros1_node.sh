@@ -47,6 +47,8 @@ fails_with() {
   [[ $status == 2 ]] && grep -qF "$sentence" "$folder/wrong.log" || { echo "expected: $sentence"; return 1; }
 }
 fails_with 'parameter gate.false_positive_rate is 5, expected a number from 0.000001 to 0.5' __name:=wrong _gate/false_positive_rate:=5
+fails_with "parameter gate.false_positive_rate is 'high', expected a number" __name:=typed _gate/false_positive_rate:=high
+fails_with "parameter follow_movers is 'often', expected true or false" __name:=typed _follow_movers:=often
 fails_with 'parameter margin is unknown' __name:=misspelled _margin:=5
 fails_with "parameter depth_noise.model is 'lidar', expected kinect or stereo or tof" __name:=other _depth_noise/model:=lidar
 
