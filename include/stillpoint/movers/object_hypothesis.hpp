@@ -54,7 +54,8 @@ class ObjectHypothesis {
       const TrackedObject& object = objects[static_cast<std::size_t>(beside[i])];
       const double says =
           log_likelihood_ratio(features.pair(stepped), object.mover.current_from_reference * reference_from_current);
-      const double prior = std::log(static_cast<double>(labels[i].probability) / (1.0 - labels[i].probability));
+      const auto probability = static_cast<double>(labels[i].probability);
+      const double prior = std::log(probability / (1.0 - probability));
       const bool moves = prior + says > 0;
       if (says == 0 || moves == features.is_dynamic(i)) continue;
       labels[i].verdict = moves ? Verdict::dynamic : Verdict::kept;

@@ -48,10 +48,11 @@ class MaskPrediction {
     if (!(interval_s > 0) || std::none_of(labels.begin(), labels.end(), moves)) return;
     pixel_ = matches.current.pixel;
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      const Vector2f step = matches.current.pixel[i] - matches.reference.pixel[i];
       const bool followed = matches.matched(i);
-      seen_.push_back({followed ? Vector2f(step / static_cast<float>(interval_s)) : Vector2f::Zero(),
-                       static_cast<float>(matches.current.depth_m[i]),
+      Vector2f velocity_px = Vector2f::Zero();
+      if (followed)
+        velocity_px = (matches.current.pixel[i] - matches.reference.pixel[i]) / static_cast<float>(interval_s);
+      seen_.push_back({velocity_px, static_cast<float>(matches.current.depth_m[i]),
                        static_cast<float>(kSameSurface.at(matches.current.depth_sigma_m[i])), moves(labels[i]),
                        followed});
     }
@@ -146,7 +147,8 @@ class MaskPrediction {
       weight += near;
       sum += near * seen_[j].velocity_px;
     });
-    return weight > 0 ? Vector2f(sum / weight) : seen_[i].velocity_px;
+    if (!(weight > 0)) return seen_[i].velocity_px;
+    return sum / weight;
   }
 
   /// Marks the cells in which feature `i` and its surface will be, a step from here.
