@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
@@ -17,6 +18,8 @@ namespace stillpoint {
 /// A grid over a list of pixels; points that are not finite are left out. Lives in the workspace.
 class PixelGrid {
  public:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
   /// @param accept `bool(std::size_t)`: which points take part
   template <class Accept>
   PixelGrid(span<const Vector2f> pixels, float cell_px, Workspace& workspace, const Accept& accept)
@@ -37,6 +40,21 @@ class PixelGrid {
         if (squared <= radius_px * radius_px) visit(std::size_t{entry_[k].index}, squared);
       }
     });
+  }
+
+  /// The index of the nearest point within `radius_px` that is accepted, of equally near ones the first in the order of
+  /// `within`; `kNone` where there is none.
+  /// @param accept  `bool(index, squared_distance_px)`, asked of points that are nearer than all that were accepted
+  template <class Accept>
+  std::size_t nearest(const Vector2f& pixel, float radius_px, const Accept& accept) const {
+    std::size_t nearest = kNone;
+    float least = std::numeric_limits<float>::infinity();
+    within(pixel, radius_px, [&](std::size_t i, float squared) {
+      if (!(squared < least) || !accept(i, squared)) return;
+      least = squared;
+      nearest = i;
+    });
+    return nearest;
   }
 
   /// Points have a rank in the order of the cells. `visit(first, last)` is called for every run of ranks in the cells

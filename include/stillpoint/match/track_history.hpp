@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -52,7 +51,7 @@ class TrackHistory {
       track[0] = matches.reference.undistorted[i].cast<float>();
       next_.length[i] = 1;
       const std::size_t parent = nearest(last, matches.reference, i, same_point_px);
-      if (parent == kNone) continue;
+      if (parent == PixelGrid::kNone) continue;
       const std::size_t inherited = std::min(newest_.length[parent], capacity - 1);
       const Vector2f* const older = newest_.tracks.data() + parent * capacity;
       const Vector2f beside = track[0] - newest_.undistorted[parent];
@@ -65,7 +64,6 @@ class TrackHistory {
   void reset() noexcept { newest_.resize(0, 0); }
 
  private:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   static constexpr float kCell_px = 8.0f;
 
   struct Tracks {
@@ -88,17 +86,11 @@ class TrackHistory {
   std::size_t nearest(const PixelGrid& grid, const View& before, std::size_t i, float reach_px) const {
     constexpr float kSame_sq_px = 0.25f;  // nearer than half a pixel it is the same point, whatever its depth
     const double depth_m = before.depth_m[i], tolerance_m = DepthTolerance().at(before.depth_sigma_m[i]);
-    std::size_t found = kNone;
-    float least = std::numeric_limits<float>::infinity();
-    grid.within(before.pixel[i], reach_px, [&](std::size_t index, float squared) {
-      if (!(squared < least)) return;
+    return grid.nearest(before.pixel[i], reach_px, [&](std::size_t index, float squared) {
       const double theirs_m = newest_.depth_m[index];
       const bool of_one_kind = (depth_m > 0) == (theirs_m > 0);
-      if (squared > kSame_sq_px && !(of_one_kind && std::abs(depth_m - theirs_m) <= tolerance_m)) return;
-      least = squared;
-      found = index;
+      return !(squared > kSame_sq_px) || (of_one_kind && std::abs(depth_m - theirs_m) <= tolerance_m);
     });
-    return found;
   }
 
   Tracks newest_, next_;

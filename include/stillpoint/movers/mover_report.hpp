@@ -77,12 +77,10 @@ class MoverReport {
     const span<std::int32_t> found = workspace.take<std::int32_t>(matches.size(), kNone);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches.current.has_depth(i) || !features.is_dynamic(i)) continue;
-      float least = reach_px * reach_px;
-      members.within(matches.current.pixel[i], reach_px, [&](std::size_t j, float squared) {
-        if (squared >= least) return;
-        least = squared;
-        found[i] = features.object_of[j];
+      const std::size_t nearest = members.nearest(matches.current.pixel[i], reach_px, [&](std::size_t, float squared) {
+        return squared < reach_px * reach_px;
       });
+      if (nearest != PixelGrid::kNone) found[i] = features.object_of[nearest];
     }
     for (std::size_t i = 0; i < matches.size(); ++i)
       if (found[i] != kNone) features.object_of[i] = found[i];

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -67,7 +66,7 @@ struct MovingFeatures {
   /// @param followed  the features with a step
   FeatureVelocity velocity(std::size_t i, const PixelGrid& followed) const {
     const std::size_t beside = with_step(i, followed);
-    if (beside == matches.size()) return {};
+    if (beside == PixelGrid::kNone) return {};
     FeatureVelocity velocity;
     velocity.is_known = true;
     velocity.value =
@@ -77,7 +76,7 @@ struct MovingFeatures {
     return velocity;
   }
 
-  /// The feature itself if it has a step, else the nearest on its surface that has one; the number of matches if none.
+  /// The feature itself if it has a step, else the nearest on its surface that has one, else `PixelGrid::kNone`.
   std::size_t with_step(std::size_t i, const PixelGrid& followed) const {
     return matches.metric(i) ? i : followed_beside(i, followed);
   }
@@ -88,15 +87,9 @@ struct MovingFeatures {
  private:
   std::size_t followed_beside(std::size_t i, const PixelGrid& followed) const {
     constexpr double kSameSurface_m = 0.05;
-    std::size_t nearest = matches.size();
-    float least = std::numeric_limits<float>::infinity();
-    followed.within(matches.current.pixel[i], beside_px(), [&](std::size_t j, float squared) {
-      if (!(squared < least) || !(std::abs(matches.current.depth_m[j] - matches.current.depth_m[i]) < kSameSurface_m))
-        return;
-      least = squared;
-      nearest = j;
+    return followed.nearest(matches.current.pixel[i], beside_px(), [&](std::size_t j, float) {
+      return std::abs(matches.current.depth_m[j] - matches.current.depth_m[i]) < kSameSurface_m;
     });
-    return nearest;
   }
 };
 

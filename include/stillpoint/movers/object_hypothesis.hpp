@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
@@ -50,7 +49,7 @@ class ObjectHypothesis {
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (beside[i] == MovingFeatures<Camera>::kNone) continue;
       const std::size_t stepped = features.with_step(i, followed);
-      if (stepped == matches.size()) continue;
+      if (stepped == PixelGrid::kNone) continue;
       const TrackedObject& object = objects[static_cast<std::size_t>(beside[i])];
       const double says =
           log_likelihood_ratio(features.pair(stepped), object.mover.current_from_reference * reference_from_current);
@@ -100,14 +99,10 @@ class ObjectHypothesis {
   static std::int32_t object_beside(std::size_t i, const MovingFeatures<Camera>& features, const PixelGrid& members,
                                     float reach_px) {
     const FrameFeatures& current = features.matches.current;
-    std::int32_t nearest = MovingFeatures<Camera>::kNone;
-    float least = std::numeric_limits<float>::infinity();
-    members.within(current.pixel[i], reach_px, [&](std::size_t j, float squared) {
-      if (j == i || !(squared < least) || !(std::abs(current.depth_m[j] - current.depth_m[i]) < kSameSurface_m)) return;
-      least = squared;
-      nearest = features.object_of[j];
+    const std::size_t nearest = members.nearest(current.pixel[i], reach_px, [&](std::size_t j, float) {
+      return j != i && std::abs(current.depth_m[j] - current.depth_m[i]) < kSameSurface_m;
     });
-    return nearest;
+    return nearest == PixelGrid::kNone ? MovingFeatures<Camera>::kNone : features.object_of[nearest];
   }
 };
 

@@ -50,6 +50,40 @@ TEST(PixelGrid, FindsWhatBruteForceFinds) {
   }
 }
 
+TEST(PixelGrid, NearestIsThatOfBruteForce) {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Random random(seed);
+    std::vector<Vector2f> pixels;
+    for (int i = 0; i < 60; ++i)
+      pixels.emplace_back(static_cast<float>(random.uniform(0, 100)), static_cast<float>(random.uniform(0, 100)));
+    const auto accept = [](std::size_t i, float squared) { return i % 3 != 0 && squared > 9.0f; };
+    Workspace workspace;
+    const PixelGrid grid(pixels, 10.0f, workspace, everything);
+    for (int query = 0; query < 20; ++query) {
+      const Vector2f pixel(static_cast<float>(random.uniform(0, 100)), static_cast<float>(random.uniform(0, 100)));
+      std::size_t expected = PixelGrid::kNone;
+      float least = 12.0f * 12.0f;
+      for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const float squared = (pixels[i] - pixel).squaredNorm();
+        if (!accept(i, squared) || squared > least) continue;
+        least = squared;
+        expected = i;
+      }
+      EXPECT_EQ(grid.nearest(pixel, 12.0f, accept), expected) << "seed " << seed;
+    }
+  }
+}
+
+TEST(PixelGrid, OfEquallyNearPointsTheFirstIsTheNearest) {
+  const std::vector<Vector2f> pixels = {{10, 10}, {14, 10}, {14, 10}, {12, 12}};
+  Workspace workspace;
+  const PixelGrid grid(pixels, 50.0f, workspace, everything);
+  const auto any = [](std::size_t, float) { return true; };
+  const std::size_t first = neighbours(grid, {12, 10}, 5.0f).front();
+  EXPECT_EQ(grid.nearest({12, 10}, 5.0f, any), first) << "all are 2 px away";
+  EXPECT_EQ(grid.nearest({12, 10}, 1.9f, any), PixelGrid::kNone);
+}
+
 // Ranks go cell by cell; the runs hold all that is within, and nothing twice.
 TEST(PixelGrid, RunsOfRanksHoldWhatIsWithin) {
   Random random(1);
