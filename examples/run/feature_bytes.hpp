@@ -16,9 +16,6 @@
 
 namespace stillpoint_run {
 
-/// How many reasons there are; the one behind the last is the oracle's "label".
-inline constexpr std::size_t kReasonCount = static_cast<std::size_t>(stillpoint::Reason::object_motion) + 1;
-
 namespace detail {
 
 inline std::uint16_t rounded_u16(double value) {
@@ -35,7 +32,7 @@ inline std::uint16_t rounded_i16(double value) {
 /// 12 bytes a feature, little-endian:
 ///   u16 x, u16 y    1/16 px
 ///   u8  verdict (bits 0-1), kept (bit 2), mobility of the prior (bits 3-4)
-///   u8  reason
+///   u8  reason; the one behind the last is the oracle's "label"
 ///   i16 score       1/100; -32768: not scored
 ///   i8  offset x, i8 offset y   half pixels; both -128: not known
 ///   u16 depth       millimetres; 0: none
@@ -58,7 +55,7 @@ inline std::vector<std::uint8_t> feature_bytes(const FrameRecord& record,
     put_u8(static_cast<unsigned>(row.label.verdict) | (row.label.keep ? 4u : 0u) |
            static_cast<unsigned>(row.prior) << 3);
     const bool is_enumerated = std::strcmp(row.reason, to_string(row.label.reason)) == 0;
-    put_u8(is_enumerated ? static_cast<unsigned>(row.label.reason) : static_cast<unsigned>(kReasonCount));
+    put_u8(is_enumerated ? static_cast<unsigned>(row.label.reason) : static_cast<unsigned>(stillpoint::kReasonCount));
     put_u16(std::isfinite(row.score) ? detail::rounded_i16(kStepsPerScore * static_cast<double>(row.score)) : kNoScore);
     const stillpoint::Vector2f& offset = offsets_px[i];
     for (const float component : {offset.x(), offset.y()})

@@ -112,7 +112,7 @@ inline nlohmann::json pictures_data(const std::vector<Picture>& pictures) {
 inline nlohmann::json terms_data() {
   nlohmann::json reasons = nlohmann::json::array(), statuses = nlohmann::json::object(),
                  warnings = nlohmann::json::object();
-  for (std::size_t i = 0; i < kReasonCount; ++i) {
+  for (std::size_t i = 0; i < stillpoint::kReasonCount; ++i) {
     const auto reason = static_cast<stillpoint::Reason>(i);
     reasons.push_back({to_string(reason), explained(reason)});
   }

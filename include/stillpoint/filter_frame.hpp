@@ -141,8 +141,6 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
  private:
-  static constexpr bool kHasMovers = !std::is_same_v<MoversOf<Policies>, NoMovers>;
-
   Status judge(const FrameView& frame) {
     const FrameView reference = history_.back(1).view();
     Motion& motion = result_.motion_;
@@ -192,12 +190,12 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::gate, [&] { learn(gate, observations_, labels); });
     timings.run(Stage::memory, [&] { memory.update(observations_, motion, evidence, labels, workspace_); });
     timings.run(Stage::match, [&] { learn(matcher, observations_, labels); });
-    if constexpr (kHasMovers)  // without, not even a look at the clock
+    if constexpr (kHasMovers<Policies>)  // without, not even a look at the clock
       timings.run(Stage::movers,
                   [&] { movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_); });
     timings.run(Stage::verdict, [&] {
-      mask_prediction.remember(matches, labels, frame.timestamp_s, matches.elapsed_s);
-      if constexpr (kHasMovers) mask_prediction.follow(result_.movers_, matches, camera);
+      mask_prediction.remember(matches, labels, frame.timestamp_s);
+      if constexpr (kHasMovers<Policies>) mask_prediction.follow(result_.movers_, matches, camera);
       keep_floor.apply(pixels_, frame.image(), labels.first(pixels_.size()), workspace_);
       result_.finish(labels, scores, matches.current.depth_m);
     });
@@ -230,7 +228,7 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("classifier", filter.classifier);
   visit("memory", filter.memory);
   visit("keep_floor", filter.keep_floor);
-  if constexpr (!std::is_same_v<MoversOf<Policies>, NoMovers>) visit("movers", filter.movers);
+  if constexpr (kHasMovers<Policies>) visit("movers", filter.movers);
   visit("mask_prediction", filter.mask_prediction);
 }
 

@@ -4,6 +4,7 @@
 
 // What scoring, gating and classifying say of a feature.
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -45,6 +46,8 @@ enum class Reason : std::uint8_t {
   keep_floor,       ///< dynamic, but kept, because too few would be left
   object_motion,    ///< the motion of the object that it lies on decided (movers)
 };
+
+constexpr std::size_t kReasonCount = static_cast<std::size_t>(Reason::object_motion) + 1;
 
 constexpr const char* to_string(Verdict verdict) noexcept {
   switch (verdict) {

@@ -43,6 +43,7 @@ class ObjectHypothesis {
       return object != MovingFeatures<Camera>::kNone && features.is_dynamic(i) && matches.current.has_depth(i) &&
              surely_moves(objects[static_cast<std::size_t>(object)]);
     });
+    // All are looked up before the first is changed.
     const span<std::int32_t> beside = workspace.take<std::int32_t>(matches.size(), MovingFeatures<Camera>::kNone);
     for (std::size_t i = 0; i < matches.size(); ++i)
       if (is_open(labels[i]) && matches.current.has_depth(i)) beside[i] = object_beside(i, features, members, reach_px);
@@ -72,6 +73,7 @@ class ObjectHypothesis {
   static constexpr double kApart_sq = 9.0;         // χ²: the two motions differ by more than noise at this feature
   static constexpr double kUnexplained_sq = 16.0;  // χ²: neither motion explains it
   static constexpr double kMostSaid = 1.386;       // ln 4: steps of neighbours share errors, and the filter used them
+  static constexpr float kLeast = 0.2f;            // 1 / (1 + 4): what is less probable stays less than even
 
   static bool surely_moves(const TrackedObject& object) {
     return object.is_confirmed && object.is_seen && object.members >= kFewest &&
@@ -79,10 +81,7 @@ class ObjectHypothesis {
   }
 
   /// Could an object's motion change it?
-  static bool is_open(const Label& label) {
-    static const float least = static_cast<float>(1.0 / (1.0 + std::exp(kMostSaid)));
-    return label.probability > least && label.probability < 1.0f - least;
-  }
+  static bool is_open(const Label& label) { return label.probability > kLeast && label.probability < 1.0f - kLeast; }
 
   /// That it moves with the object, to that it stands; 0 where the two can't be told apart.
   static double log_likelihood_ratio(const WhitenedPair& pair, const Pose& moved) {

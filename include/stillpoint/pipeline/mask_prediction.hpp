@@ -38,20 +38,19 @@ class MaskPrediction {
   Options options;
 
   /// Takes what a frame said; what follows from it is worked out when somebody asks.
-  /// @param interval_s  from the reference frame to this one
-  void remember(const Matches& matches, span<const Label> labels, double timestamp_s, double interval_s) {
+  void remember(const Matches& matches, span<const Label> labels, double timestamp_s) {
     forget();
     timestamp_s_ = timestamp_s;
     pixel_.reserve(matches.size());  // with the first frame, not with the first that moves
     seen_.reserve(matches.size());
     const auto moves = [](const Label& label) { return label.verdict == Verdict::dynamic; };
-    if (!(interval_s > 0) || std::none_of(labels.begin(), labels.end(), moves)) return;
+    if (!(matches.elapsed_s > 0) || std::none_of(labels.begin(), labels.end(), moves)) return;
     pixel_ = matches.current.pixel;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const bool followed = matches.matched(i);
       Vector2f velocity_px = Vector2f::Zero();
       if (followed)
-        velocity_px = (matches.current.pixel[i] - matches.reference.pixel[i]) / static_cast<float>(interval_s);
+        velocity_px = (matches.current.pixel[i] - matches.reference.pixel[i]) / static_cast<float>(matches.elapsed_s);
       seen_.push_back({velocity_px, static_cast<float>(matches.current.depth_m[i]),
                        static_cast<float>(kSameSurface.at(matches.current.depth_sigma_m[i])), moves(labels[i]),
                        followed});
@@ -69,10 +68,9 @@ class MaskPrediction {
         const std::size_t i = movers.match[k];
         Seen& seen = seen_[i];
         if (!matches.current.has_depth(i) || (seen.followed && !mover.has_rotation)) continue;
-        const Vector3d& point = matches.current.point[i];
-        const Vector3d next = mover.current_from_reference * point;
+        const Vector3d next = mover.current_from_reference * matches.current.point[i];
         if (!(next.z() > 0)) continue;
-        const Vector2d step = camera.distort(camera.project(next)) - camera.distort(camera.project(point));
+        const Vector2d step = camera.distort(camera.project(next)) - pixel_[i].cast<double>();
         seen.velocity_px = (step / matches.elapsed_s).template cast<float>();
         seen.followed |= mover.has_rotation;
       }

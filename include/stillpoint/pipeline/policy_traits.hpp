@@ -119,6 +119,10 @@ struct NamedMovers<Policies, std::void_t<typename Policies::Movers>> {
 template <class Policies>
 using MoversOf = typename detail::NamedMovers<Policies>::type;
 
+/// Does a set follow movers? What depends on it is not even compiled where it does not.
+template <class Policies>
+inline constexpr bool kHasMovers = !std::is_same_v<MoversOf<Policies>, NoMovers>;
+
 /// Instantiated by `FrameFilter`: one readable error for each stage that does not keep its contract.
 template <class Policies>
 struct PolicyContract {

@@ -21,6 +21,8 @@ constexpr double kInterval_s = 0.1;
 /// A frame's features as the filter ends with them, in an image of 160 × 120 at 0.1 s, and what is predicted from them.
 class MaskPredictionTest : public testing::Test {
  protected:
+  MaskPredictionTest() { matches.elapsed_s = kInterval_s; }
+
   void add(const Vector2f& from, const Vector2f& to, Verdict verdict, double depth_m = 0.0) {
     const std::size_t i = matches.size();
     matches.resize(i + 1);
@@ -40,7 +42,7 @@ class MaskPredictionTest : public testing::Test {
     matches.reference.pixel.back().setConstant(std::numeric_limits<float>::quiet_NaN());
   }
   const ImageView& predict(int margin_px = 0, double timestamp_s = 2 * kInterval_s) {
-    prediction.remember(matches, labels, kInterval_s, kInterval_s);
+    prediction.remember(matches, labels, kInterval_s);
     return paint(margin_px, timestamp_s);
   }
   const ImageView& paint(int margin_px = 0, double timestamp_s = 2 * kInterval_s) {
@@ -124,8 +126,7 @@ class FollowedObject : public MaskPredictionTest {
     mover.current_from_reference.translation().x() = 0.02;
     mover.pixel_count = movers.pixel.size();
     movers.list = {mover};
-    matches.elapsed_s = kInterval_s;
-    prediction.remember(matches, labels, kInterval_s, kInterval_s);
+    prediction.remember(matches, labels, kInterval_s);
     prediction.follow(movers, matches, kCamera);
     paint();
   }

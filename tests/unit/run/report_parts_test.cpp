@@ -81,7 +81,7 @@ TEST(FeatureBytes, AreAsThePageReadsThem) {
   record.rows[0].reason = "label";
   record.rows[0].score = std::nanf("");
   const auto other = feature_bytes(record, {{std::nanf(""), 0.0f}});
-  EXPECT_EQ(other[5], kReasonCount) << "the oracle's";
+  EXPECT_EQ(other[5], stillpoint::kReasonCount) << "the oracle's";
   EXPECT_EQ(other[6] | other[7] << 8, 0x8000);
   EXPECT_EQ(other[8], 128);
 }
