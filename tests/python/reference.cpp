@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // reference FOLDER [RECORDED]: writes a rendered sequence in the layout of the TUM benchmark, and what the C++ says of
-// it, bit for bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt; the same with
+// it, bit for bit: features_<i>.bin, masks_<i>.bin, poses_<i>.bin, movers_<i>.bin and figures.txt; the .bin with
 // movers in FOLDER/movers. RECORDED is a folder of that layout: recorded_<i>.bin are the features of its first frames.
 // tests/python/test_equal_to_cpp.py calls the same in Python.
 
@@ -15,6 +15,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/evaluation/feature_score.hpp"
@@ -179,7 +180,43 @@ void run_recorded(const fs::path& recorded, const fs::path& folder) {
   }
 }
 
-void run(const fs::path& folder, bool has_movers) {
+/// A filter, with movers or without, and where its answers go.
+struct Side {
+  Side(const stillpoint::Camera& camera, fs::path out, bool has_movers) : folder(std::move(out)), filter(camera) {
+    fs::create_directories(folder);
+    filter.movers.is_on = has_movers;
+    filter.movers.options.least_path_m = 0.003;  // of these few frames
+    filter.movers.options.least_path_sigmas = 1;
+  }
+
+  const FrameResult& answer(int i, const stillpoint::SyntheticFrame& frame, const std::vector<cv::KeyPoint>& keypoints,
+                            const Pose& true_motion) {
+    if (i == kOptionAt) filter.gate.options.false_positive_rate = 0.02;
+    if (i == kResetAt) filter.reset();
+    if (i == kExpectedAt) filter.expect_motion(true_motion);
+    if (i == kDetectedAt) {
+      stillpoint::Detection person{{0, 40, 100, 150}, stillpoint::Mobility::dynamic, 0.9f};
+      person.class_index = 7;
+      filter.prior.detected(frame.timestamp_s, {person});
+    }
+    filter.predicted_keep_mask(frame.timestamp_s, 8, predicted);
+    const FrameResult& result = filter.filter_frame(
+        {frame.gray.view(), stillpoint::DepthView(frame.depth.view(), frame.depth_factor), frame.timestamp_s},
+        keypoints);
+    filter.feedback(frame.world_from_camera);
+    write_features(folder / numbered("features", i), keypoints, result);
+    write_masks(folder / numbered("masks", i), predicted, result);
+    write_poses(folder / numbered("poses", i), frame.world_from_camera, true_motion, result);
+    write_movers(folder / numbered("movers", i), result);
+    return result;
+  }
+
+  fs::path folder;
+  stillpoint::FrameFilter<stillpoint::WithMovers<>> filter;
+  ImageBuffer predicted;
+};
+
+void run(const fs::path& folder) {
   stillpoint::synthetic::SceneOptions options;
   options.width = 320;
   options.height = 240;
@@ -194,15 +231,11 @@ void run(const fs::path& folder, bool has_movers) {
               << "\ncy: " << text(camera.cy()) << "\nwidth: " << camera.width() << "\nheight: " << camera.height()
               << "\ndepth_factor: " << text(sequence.scene().sensor.depth_factor) << '\n';
 
-  stillpoint::FrameFilter<stillpoint::WithMovers<>> filter(camera);
-  filter.movers.is_on = has_movers;
-  filter.movers.options.least_path_m = 0.003;  // of these few frames
-  filter.movers.options.least_path_sigmas = 1;
+  Side without(camera, folder, false), with_movers(camera, folder / "movers", true);
   stillpoint::SyntheticFrame frame;
   stillpoint::FilterScore score;
   stillpoint::Trajectory truth, estimate;
   Pose last = Pose::Identity(), world_from_camera = Pose::Identity();
-  ImageBuffer predicted;
   const auto orb = cv::ORB::create(400);
   for (int i = 0; i < kFrames; ++i) {
     sequence.render(i, frame);
@@ -218,25 +251,9 @@ void run(const fs::path& folder, bool has_movers) {
     std::vector<cv::KeyPoint> keypoints;
     orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
 
-    if (i == kOptionAt) filter.gate.options.false_positive_rate = 0.02;
-    if (i == kResetAt) filter.reset();
     const Pose true_motion = frame.world_from_camera.inverse() * last;
-    if (i == kExpectedAt) filter.expect_motion(true_motion);
-    if (i == kDetectedAt) {
-      stillpoint::Detection person{{0, 40, 100, 150}, stillpoint::Mobility::dynamic, 0.9f};
-      person.class_index = 7;
-      filter.prior.detected(frame.timestamp_s, {person});
-    }
-    filter.predicted_keep_mask(frame.timestamp_s, 8, predicted);
-    const FrameResult& result = filter.filter_frame(
-        {frame.gray.view(), stillpoint::DepthView(frame.depth.view(), frame.depth_factor), frame.timestamp_s},
-        keypoints);
-    filter.feedback(frame.world_from_camera);
-
-    write_features(folder / numbered("features", i), keypoints, result);
-    write_masks(folder / numbered("masks", i), predicted, result);
-    write_poses(folder / numbered("poses", i), frame.world_from_camera, true_motion, result);
-    write_movers(folder / numbered("movers", i), result);
+    with_movers.answer(i, frame, keypoints, true_motion);
+    const FrameResult& result = without.answer(i, frame, keypoints, true_motion);
     std::vector<stillpoint::Vector2f> pixels;
     stillpoint::read_pixels(keypoints, pixels);
     score.add_frame(frame.labels.view(), pixels, result.keep());
@@ -256,8 +273,7 @@ void run(const fs::path& folder, bool has_movers) {
 int main(int argument_count, char** arguments) {
   try {
     if (argument_count != 2 && argument_count != 3) throw stillpoint::Error("usage: reference FOLDER [RECORDED]");
-    run(arguments[1], false);
-    run(fs::path(arguments[1]) / "movers", true);
+    run(arguments[1]);
     if (argument_count == 3) run_recorded(arguments[2], arguments[1]);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "reference: %s\n", error.what());

@@ -21,21 +21,21 @@ namespace slam_circuit_test {
 namespace {
 
 constexpr int kPerRound = 100;
-constexpr double kRate_hz = slam_run::kSlamRate_hz, kTurn_rad = 2 * 3.14159265358979;
+constexpr double kTurn_rad = 2 * 3.14159265358979;
 
 /// Looks around from a circle of 0.3 m in the middle of the room, a round in ten seconds.
 stillpoint::synthetic::Scene circuit(int rounds) {
   stillpoint::synthetic::SceneOptions options;
   options.width = 320;
   options.height = 240;
-  options.frame_rate_hz = kRate_hz;
+  options.frame_rate_hz = slam_run::kSlamRate_hz;
   options.frames = rounds * kPerRound;
   stillpoint::synthetic::Scene scene = stillpoint::synthetic::walking_people(options);
   constexpr int kKeys = 8;
   std::vector<stillpoint::synthetic::Waypoint> keys;
   for (int k = -1; k <= rounds * kKeys + 1; ++k) {
     const double angle = kTurn_rad * k / kKeys;
-    keys.push_back({kPerRound / kRate_hz * k / kKeys,
+    keys.push_back({kPerRound / slam_run::kSlamRate_hz * k / kKeys,
                     {0.3 * std::sin(angle), -1.42, 0.5 + 0.3 * std::cos(angle)},
                     angle,
                     -0.19,
@@ -86,7 +86,7 @@ std::size_t resident_kb() {
   return 0;
 }
 
-/// The map after each of some rounds past what stands still.
+/// The map after each of some rounds past what stands still. A round is rendered once: the noise of its images repeats.
 std::vector<Size> sizes_after(int rounds) {
   stillpoint::synthetic::Scene scene = circuit(1);
   scene.movers.clear();

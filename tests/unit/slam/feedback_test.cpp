@@ -13,6 +13,7 @@
 #include "made_map.hpp"
 #include "slam/dynamic_features.hpp"
 #include "slam/slam.hpp"
+#include "slam_run.hpp"
 #include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
@@ -138,11 +139,9 @@ double dropped_share(bool uses_multi_view) {
                          .path(stillpoint::synthetic::Blend::linear);
   scene.movers.push_back(stillpoint::synthetic::printed_box(creep, {0.30, 0.35, 0.22}, ten_per_second.seed + 20));
   stillpoint::SyntheticSequence sequence(scene);
-  slam::SlamOptions options;
-  options.maps_in_step = true;
+  slam::SlamOptions options = slam_run::in_step();
   options.finds_dynamic = true;
   options.uses_multi_view = uses_multi_view;
-  options.noise.depth_sigma_factor = 1.0;  // the synthetic sensor has KinectNoise
   using Filter = stillpoint::FrameFilter<stillpoint::CompiledPolicies>;
   stillpoint::FilteredTracker tracker(Filter(sequence.camera()), slam::Slam(sequence.camera(), options));
   tracker.tells_filter = false;

@@ -27,7 +27,6 @@ struct RenderedFrame {
   Pose world_from_camera;
 };
 
-/// Rendered once: the rounds are equal but for the noise of the images.
 inline std::vector<RenderedFrame> rendered(const stillpoint::synthetic::Scene& scene) {
   stillpoint::SyntheticSequence sequence(scene);
   stillpoint::SyntheticFrame frame;
@@ -40,19 +39,18 @@ inline std::vector<RenderedFrame> rendered(const stillpoint::synthetic::Scene& s
   return frames;
 }
 
-/// A SLAM, in step, behind a filter that is given frames ten times a second.
+inline examples::slam::SlamOptions in_step() {
+  examples::slam::SlamOptions options;
+  options.maps_in_step = true;
+  options.noise.depth_sigma_factor = 1.0;  // the synthetic sensor has KinectNoise
+  return options;
+}
+
+/// A SLAM behind a filter that is given frames ten times a second.
 template <class Filter>
 struct SlamRun {
-  SlamRun(const stillpoint::Camera& camera, Filter filter, bool uses_objects = true)
-      : tracker(std::move(filter), examples::slam::Slam(camera, in_step(uses_objects))) {}
-
-  static examples::slam::SlamOptions in_step(bool uses_objects) {
-    examples::slam::SlamOptions options;
-    options.maps_in_step = true;
-    options.uses_objects = uses_objects;
-    options.noise.depth_sigma_factor = 1.0;  // the synthetic sensor has KinectNoise
-    return options;
-  }
+  SlamRun(const stillpoint::Camera& camera, Filter filter, const examples::slam::SlamOptions& options = in_step())
+      : tracker(std::move(filter), examples::slam::Slam(camera, options)) {}
 
   /// @return how far the pose is off, as it is known at the time, metres; NaN where there is none
   double track(const RenderedFrame& frame) {
