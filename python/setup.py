@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-"""The compiled part of the Python package: CMake builds it, with the options in CMAKE_ARGS. The rest is in pyproject.toml."""
+"""The compiled part of the Python package: CMake builds it, with the options in CMAKE_ARGS. The rest is in
+../pyproject.toml, whose backend runs this from the folder above."""
 
 import os
 import pathlib
@@ -14,7 +15,7 @@ import pybind11
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
-ROOT = pathlib.Path(__file__).resolve().parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 class CMakeBuild(build_ext):
