@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// stella_vslam takes the filter's answer in two ways, both without a patch.   docs/adopting.md has the whole of it.
+// stella_vslam takes the filter's answer in three ways, the last two without a patch.   docs/hosts/other_hosts.md has
+// the whole of it.
 //
+//   patch      camera, keep_floor       in create_RGBD_frame: docs/hosts/stella_vslam.diff
+//   keypoints  compact_observation      between create_RGBD_frame and feed_frame: drops no neighbours of what moves
 //   mask       frame_mask_0_drops       feed_RGBD_frame(rgb, depth, timestamp, mask): before the features are chosen
-//   keypoints compact_observation      between create_RGBD_frame and feed_frame: drops no neighbours of what moves
 //
 // A mask costs more than what it covers: a cell of 64 pixels of the pyramid level is skipped whole where one of its
 // corners is dropped. No header of the host is included: members are meant by name.
@@ -17,6 +19,7 @@
 
 #include "stillpoint/adapters/host_arrays.hpp"
 #include "stillpoint/adapters/host_masks.hpp"
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/verdict/keep_floor.hpp"
 
@@ -31,7 +34,24 @@ constexpr bool is_observation = offers<Observation>([](auto& o) -> decltype(  //
                                                                     void(o.depths_),
                                                                     void(o.keypt_indices_in_cells_)) {});
 
+template <class HostCamera>
+constexpr bool is_fisheye = offers<HostCamera>([](auto& camera) -> decltype(void(camera.k4_)) {});
+
 }  // namespace detail
+
+/// The filter's camera.
+/// @param host  camera::perspective or camera::fisheye
+/// @throws Error if its values are none of a camera
+template <class HostCamera>
+Camera camera(const HostCamera& host) {
+  AnyDistortion lens;
+  if constexpr (detail::is_fisheye<const HostCamera>)
+    lens.model = EquidistantFisheye{host.k1_, host.k2_, host.k3_, host.k4_};
+  else if (host.k1_ != 0 || host.k2_ != 0 || host.p1_ != 0 || host.p2_ != 0 || host.k3_ != 0)
+    lens.model = BrownConrady{host.k1_, host.k2_, host.p1_, host.p2_, host.k3_};
+  return Camera(host.fx_, host.fy_, host.cx_, host.cy_, static_cast<int>(host.cols_), static_cast<int>(host.rows_),
+                lens);
+}
 
 /// The last argument of feed_RGBD_frame and its like: 0 drops, 255 keeps, which is the filter's own polarity. It takes
 /// the place of mask_rectangles in the host's configuration. The host checks nothing but the type, and that by assert.

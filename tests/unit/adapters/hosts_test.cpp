@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <set>
+#include <variant>
 #include <vector>
 
 #include "stillpoint/adapters/opencv_tracker.hpp"
@@ -52,6 +53,25 @@ TEST(StellaVslam, AMonocularFrameHasNoDepths) {
 TEST(StellaVslam, AMaskOfAnotherSizeIsRefused) {
   EXPECT_EQ(error_of([] { stillpoint::stella_vslam::frame_mask_0_drops(cv::Mat(5, 7, CV_8UC1), 7, 6); }),
             "stella_vslam: the mask has 7x5 pixels, expected the image's 7x6");
+}
+
+TEST(StellaVslam, TheCameraHasTheLensOfTheHost) {
+  using stillpoint::stella_vslam::camera;
+  const auto brown =
+      camera(look_alikes::StellaPerspective{640, 480, 500, 510, 320, 240, 0.1, -0.2, 0.003, 0.004, 0.05});
+  EXPECT_EQ(brown.width(), 640);
+  EXPECT_EQ(brown.height(), 480);
+  EXPECT_EQ(brown.matrix(), (stillpoint::Matrix3d() << 500, 0, 320, 0, 510, 240, 0, 0, 1).finished());
+  const stillpoint::BrownConrady expected{0.1, -0.2, 0.003, 0.004, 0.05};
+  const stillpoint::Vector2d on_plane(0.3, -0.2);
+  EXPECT_EQ(brown.distortion().distort(on_plane), expected.distort(on_plane));
+
+  const auto none = camera(look_alikes::StellaPerspective{640, 480, 500, 510, 320, 240, 0, 0, 0, 0, 0});
+  EXPECT_TRUE(std::holds_alternative<stillpoint::NoDistortion>(none.distortion().model));
+
+  const auto fisheye = camera(look_alikes::StellaFisheye{640, 480, 500, 510, 320, 240, 0.1, -0.02, 0.003, 0.004});
+  const stillpoint::EquidistantFisheye lens{0.1, -0.02, 0.003, 0.004};
+  EXPECT_EQ(fisheye.distortion().distort(on_plane), lens.distort(on_plane));
 }
 
 TEST(OpenVins, EachImageHasAMask) {

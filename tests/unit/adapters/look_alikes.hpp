@@ -85,6 +85,16 @@ struct StellaObservation {
   std::vector<std::vector<std::vector<unsigned int>>> keypt_indices_in_cells_;
 };
 
+/// camera::perspective of stella_vslam; its camera::fisheye has k4_ in place of p1_ and p2_.
+struct StellaPerspective {
+  const unsigned int cols_, rows_;
+  const double fx_, fy_, cx_, cy_, k1_, k2_, p1_, p2_, k3_;
+};
+struct StellaFisheye {
+  const unsigned int cols_, rows_;
+  const double fx_, fy_, cx_, cy_, k1_, k2_, k3_, k4_;
+};
+
 /// What SensorData::setFeatures of RTAB-Map takes.
 template <template <class> class Element = Plain>
 struct RtabmapFeatures {
