@@ -176,7 +176,7 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--threads", arguments.threads, "[one a core]")->check(CLI::Range(1, 256));
   app.add_flag("--without-trackers", arguments.without_trackers, "the filter alone");
   app.add_flag("--boxes", arguments.with_boxes, "give the filter the boxes of boxes.txt");
-  app.add_flag("--movers", arguments.with_movers, "WithMovers<>, whose objects are weighed in the verdicts");
+  app.add_flag("--movers", arguments.with_movers, "WithMovers<>, whose objects take features that move with them");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -50,7 +50,7 @@ class MoverTracking {
   };
   Options options;
   bool is_on = true;       ///< off: objects are forgotten, and nothing is spent; may change between frames. No option
-  bool gives_back = true;  ///< an object's motion is weighed in the verdicts of the features on it. No option
+  bool gives_back = true;  ///< kept features that move with the object that they lie on are dropped. No option
 
   /// @param motion  of the camera, in metres
   /// @param labels  of the filter; those that an object's motion explains better are changed (`gives_back`)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What explains a feature better: standing still, or the motion of the object that it lies on?
+// Which kept features move with the object that they lie on?
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +23,13 @@
 
 namespace stillpoint {
 
-/// Gives what the objects know back to the verdicts. The filter asks of a feature whether it moves at all; here is a
-/// motion that it would have. Its likelihood ratio to standing still is added to the log-odds that the filter found.
+/// Gives what the objects know back to the verdicts. The filter asks of a feature whether it moves at all; where an
+/// object's motion is too small there to be told from noise, the object itself says more: what lies on it and fits its
+/// motion better than standing still moves along. Where the two motions are far apart the filter has told them apart.
 class ObjectHypothesis {
  public:
-  /// Changes verdicts of features on objects that surely move, and whose they are. A feature without a probability, or
-  /// that neither motion explains, stays as it is.
+  /// Makes kept features dynamic that lie on an object that surely moves, and whose they are. A feature without a
+  /// probability stays as it is.
   /// @param followed  the features with a step
   template <class Camera>
   static void run(const std::vector<TrackedObject>& objects, const MovingFeatures<Camera>& features,
@@ -43,54 +44,47 @@ class ObjectHypothesis {
       return object != MovingFeatures<Camera>::kNone && features.is_dynamic(i) && matches.current.has_depth(i) &&
              surely_moves(objects[static_cast<std::size_t>(object)]);
     });
-    // All are looked up before the first is changed.
-    const span<std::int32_t> beside = workspace.take<std::int32_t>(matches.size(), MovingFeatures<Camera>::kNone);
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      if (is_open(labels[i]) && matches.current.has_depth(i)) beside[i] = object_beside(i, features, members, reach_px);
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (beside[i] == MovingFeatures<Camera>::kNone) continue;
+      if (features.is_dynamic(i) || !(labels[i].probability > kLeast) || !matches.current.has_depth(i)) continue;
+      const std::int32_t beside = object_beside(i, features, members, reach_px);
+      if (beside == MovingFeatures<Camera>::kNone) continue;
       const std::size_t stepped = features.with_step(i, followed);
       if (stepped == PixelGrid::kNone) continue;
-      const TrackedObject& object = objects[static_cast<std::size_t>(beside[i])];
+      const TrackedObject& object = objects[static_cast<std::size_t>(beside)];
       const double says =
           log_likelihood_ratio(features.pair(stepped), object.mover.current_from_reference * reference_from_current);
       const auto probability = static_cast<double>(labels[i].probability);
-      const double prior = std::log(probability / (1.0 - probability));
-      const bool moves = prior + says > 0;
-      if (says == 0 || moves == features.is_dynamic(i)) continue;
-      labels[i].verdict = moves ? Verdict::dynamic : Verdict::kept;
-      labels[i].keep = !moves;
+      if (!(std::log(probability / (1.0 - probability)) + says > kNeeded)) continue;
+      labels[i].verdict = Verdict::dynamic;
+      labels[i].keep = false;
       labels[i].reason = Reason::object_motion;
-      features.object_of[i] = moves ? beside[i] : MovingFeatures<Camera>::kNone;
+      features.object_of[i] = beside;
     }
   }
 
  private:
-  static constexpr float kReach_px = 8.0f;         // for a focal length of 525 px: half of a support corner's cell
-  static constexpr double kSameSurface_m = 0.06;   // between neighbours on one surface
-  static constexpr double kSurely_m_s = 0.2;       // slower ones' motion is within the noise of standing still
-  static constexpr std::size_t kFewest = 20;       // features whose common motion is well known
-  static constexpr double kApart_sq = 9.0;         // χ²: the two motions differ by more than noise at this feature
-  static constexpr double kUnexplained_sq = 16.0;  // χ²: neither motion explains it
-  static constexpr double kMostSaid = 1.386;       // ln 4: steps of neighbours share errors, and the filter used them
-  static constexpr float kLeast = 0.2f;            // 1 / (1 + 4): what is less probable stays less than even
+  static constexpr float kReach_px = 8.0f;        // for a focal length of 525 px: half of a support corner's cell
+  static constexpr double kSameSurface_m = 0.06;  // between neighbours on one surface
+  static constexpr double kSurely_m_s = 0.2;      // slower ones' motion is within the noise of standing still
+  static constexpr std::size_t kFewest = 20;      // features whose common motion is well known
+  static constexpr double kApart_sq = 9.0;        // χ²: where the motions differ by more, the filter tells them apart
+  static constexpr double kExplained_sq = 2.37;  // χ² of three degrees of freedom: half of the object's own fit as well
+  static constexpr double kMostSaid = 1.386;     // ln 4: steps of neighbours share errors, and the filter used them
+  static constexpr double kNeeded = 0.847;       // ln (0.7 / 0.3)
+  static constexpr float kLeast = 0.36f;         // what is less probable stays below 0.7 whatever is said
 
   static bool surely_moves(const TrackedObject& object) {
     return object.is_confirmed && object.is_seen && object.members >= kFewest &&
            object.mover.state == MoverState::moving && object.linear.velocity().norm() > kSurely_m_s;
   }
 
-  /// Could an object's motion change it?
-  static bool is_open(const Label& label) { return label.probability > kLeast && label.probability < 1.0f - kLeast; }
-
-  /// That it moves with the object, to that it stands; 0 where the two can't be told apart.
+  /// That it moves with the object, to that it stands; 0 where the object has no say.
   static double log_likelihood_ratio(const WhitenedPair& pair, const Pose& moved) {
     WhitenedPair carried = pair;
     carried.current = moved * pair.reference;
-    if (squared_distance(carried, Pose::Identity()) < kApart_sq) return 0;
-    const double stands_sq = squared_distance(pair, Pose::Identity()), moves_sq = squared_distance(pair, moved);
-    if (!(std::min(stands_sq, moves_sq) < kUnexplained_sq)) return 0;
-    return std::clamp(0.5 * (stands_sq - moves_sq), -kMostSaid, kMostSaid);
+    const double moves_sq = squared_distance(pair, moved);
+    if (!(moves_sq < kExplained_sq) || !(squared_distance(carried, Pose::Identity()) < kApart_sq)) return 0;
+    return std::clamp(0.5 * (squared_distance(pair, Pose::Identity()) - moves_sq), -kMostSaid, kMostSaid);
   }
 
   /// The object of the nearest other member on its surface.
