@@ -41,7 +41,7 @@ int main(int count, char** arguments) {
         tables::error_table("Table 1: ATE in metres", rows, &tables::Errors::ate_m) +
         tables::error_table("Table 2: RPE of translation, metres in a second", rows, &tables::Errors::rpe_m) +
         tables::error_table("Table 3: RPE of rotation, degrees in a second", rows, &tables::Errors::rpe_deg) +
-        tables::comparison_table(rows);
+        tables::comparison_table(rows) + tables::notes(rows);
     std::fputs(text.c_str(), stdout);
     if (count > 1) {
       stillpoint::AtomicFile csv(arguments[1]);

@@ -4,6 +4,7 @@
 
 // The paper's tables: errors of trajectories with and without the filter, and what others say they reach.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -126,6 +127,17 @@ inline std::string comparison_table(stillpoint::span<const Row> rows) {
             cell(known.dyna_slam) + " | " + cell(known.ngd_slam) + " | " + cell(known.mvs_slam) + " |\n";
   }
   return text + '\n';
+}
+
+/// What a reader of the tables must know; empty where there is nothing.
+inline std::string notes(stillpoint::span<const Row> rows) {
+  const bool has_bonn = std::any_of(rows.begin(), rows.end(), [](const Row& row) {
+    return row.sequence.rfind("bonn_", 0) == 0 && (row.filtered || row.unfiltered);
+  });
+  return has_bonn ? "The poses of bonn_* are those of markers on the camera, not of the camera: compare the ATE. "
+                    "Tables 2 and "
+                    "3 have no meaning there.\n"
+                  : "";
 }
 
 /// All figures, one row for each sequence, metric and filter.

@@ -70,6 +70,14 @@ TEST(Tables, ASequenceThatIsNotHereSaysSo) {
   EXPECT_NE(tables::as_csv(rows).find("walking_xyz,with,not here"), std::string::npos);
 }
 
+// Bonn's reference is a body on the camera: a rotation of the camera moves it in another way.
+TEST(Tables, SayThatBonnsPosesAreNotTheCameras) {
+  std::vector<tables::Row> rows = {{"desk", tables::Errors{}, tables::Errors{}}, {"bonn_crowd", {}, {}}};
+  EXPECT_EQ(tables::notes(rows), "") << "not here: there is nothing to say";
+  rows[1].filtered = tables::Errors{};
+  EXPECT_NE(tables::notes(rows).find("bonn_*"), std::string::npos);
+}
+
 // η = (without − with) / without, in percent (Eq. 17).
 TEST(Tables, ImprovementIsThatOfThePaper) {
   tables::Errors with, without;
