@@ -42,7 +42,10 @@ struct MoverFigures {
   }
 };
 
-/// Sums up a sequence. A mover is an object's if most of its features lie on it; of several, the one with the most.
+/// Sums up a sequence. A mover may be an object's if most of its features lie on it; of several, the one that was so in
+/// the last frame remains it, else it is the one with the most (correspondences of CLEAR MOT: Bernardin, Stiefelhagen,
+/// "Evaluating Multiple Object Tracking Performance", EURASIP JIVP 2008). So `switches` does not count how often the
+/// larger of two parts of an object changes.
 class MoverScore {
  public:
   static constexpr std::size_t kFewestFeatures = 20;
@@ -66,7 +69,7 @@ class MoverScore {
     frames_ += has_motion;
     frames_with_movers_ += has_motion && !result.movers().empty();
     for (std::size_t o = 0; o < objects.size(); ++o) {
-      const Mover* const mover = has_motion ? mover_of(o, object_of, result) : nullptr;
+      const Mover* const mover = has_motion ? mover_of(o, tracks_[o].id, object_of, result) : nullptr;
       Moment now;
       now.timestamp_s = timestamp_s;
       now.camera_from_object = camera_from_world * objects[o].world_from_object;
@@ -108,7 +111,8 @@ class MoverScore {
     std::uint32_t id = 0;  // of the mover that was it last
   };
 
-  static const Mover* mover_of(std::size_t object, span<const std::int32_t> object_of, const FrameResult& result) {
+  static const Mover* mover_of(std::size_t object, std::uint32_t last_id, span<const std::int32_t> object_of,
+                               const FrameResult& result) {
     const Mover* best = nullptr;
     std::size_t most = 0;
     for (const Mover& mover : result.movers()) {
@@ -118,7 +122,9 @@ class MoverScore {
         on_it += object_of[i] == static_cast<std::int32_t>(object);
         on_any += object_of[i] >= 0;
       }
-      if (2 * on_it > on_any && on_it > most) {
+      if (!(2 * on_it > on_any)) continue;
+      if (mover.id == last_id) return &mover;
+      if (on_it > most) {
         most = on_it;
         best = &mover;
       }
