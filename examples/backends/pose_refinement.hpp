@@ -44,6 +44,7 @@ class PoseRefinement {
   struct Options {
     int rounds = 4;
     int iterations = 8;             ///< at most, in each round
+    double converged = 1e-5;        ///< metres and radians: a shorter step ends a round; 0.005 px at 500 px
     double chi_squared = 7.815;     ///< 95 % of a right observation's errors are below this (three degrees of freedom)
     double degrees_of_freedom = 5;  ///< of Student's distribution, as in the paper
   };
@@ -61,7 +62,8 @@ class PoseRefinement {
       minimize(observations, camera, inlier, camera_from_world);
       inliers = 0;
       for (std::size_t i = 0; i < observations.size(); ++i) {
-        inlier[i] = error(observations, i, camera, camera_from_world).squaredNorm() < options.chi_squared ? 1 : 0;
+        const Vector3d p = camera_from_world * observations[i].p_world;
+        inlier[i] = error(observations, i, camera, p).squaredNorm() < options.chi_squared ? 1 : 0;
         inliers += inlier[i];
       }
     }
@@ -72,7 +74,7 @@ class PoseRefinement {
   /// constant, by which poses can be compared.
   double misfit(span<const PointObservation> observations, const Camera& camera, const Pose& camera_from_world) {
     whiten(observations, camera, camera_from_world);
-    return cost(observations, camera, std::vector<std::uint8_t>(observations.size(), 1), camera_from_world);
+    return evaluate(observations, camera, std::vector<std::uint8_t>(observations.size(), 1), camera_from_world).cost;
   }
 
  private:
@@ -82,11 +84,11 @@ class PoseRefinement {
   using Jacobian = Eigen::Matrix<double, 3, 6>;
   static constexpr double kNearest_m = 0.05;
 
-  /// Error of u, v and depth in standard deviations. Behind the camera it is beyond every limit.
+  /// Error of u, v and depth in standard deviations, of a point in the camera's frame. Behind the camera it is beyond
+  /// every limit.
   Vector3d error(span<const PointObservation> observations, std::size_t i, const Camera& camera,
-                 const Pose& camera_from_world) const {
+                 const Vector3d& p) const {
     const PointObservation& observation = observations[i];
-    const Vector3d p = camera_from_world * observation.p_world;
     if (!(p.z() > kNearest_m)) return Vector3d::Constant(1e6);
     const Vector2d pixel_error = camera.project(p) - observation.pixel;
     const double depth_error = observation.depth_m > 0 ? p.z() - observation.depth_m : 0.0;
@@ -128,49 +130,52 @@ class PoseRefinement {
     }
   }
 
-  /// Minus the logarithm of Student's density of three errors, but for a constant.
-  double cost(span<const PointObservation> observations, const Camera& camera, const std::vector<std::uint8_t>& inlier,
-              const Pose& camera_from_world) const {
+  /// Minus the logarithm of Student's density of all flagged errors, but for a constant; half of its derivatives by the
+  /// motion, as Gauss and Newton have them.
+  struct Evaluation {
+    double cost = 0.0;
+    Matrix6d hessian = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+  };
+
+  Evaluation evaluate(span<const PointObservation> observations, const Camera& camera,
+                      const std::vector<std::uint8_t>& inlier, const Pose& camera_from_world) const {
     const double freedom = options.degrees_of_freedom;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < observations.size(); ++i)
-      if (inlier[i] != 0)
-        sum += observations[i].weight * 0.5 * (freedom + 3) *
-               std::log1p(error(observations, i, camera, camera_from_world).squaredNorm() / freedom);
-    return sum;
+    Evaluation result;
+    for (std::size_t i = 0; i < observations.size(); ++i) {
+      if (inlier[i] == 0) continue;
+      const Vector3d p = camera_from_world * observations[i].p_world;
+      const Vector3d e = error(observations, i, camera, p);
+      const double squared = e.squaredNorm();
+      result.cost += observations[i].weight * 0.5 * (freedom + 3) * std::log1p(squared / freedom);
+      if (!(p.z() > kNearest_m)) continue;
+      const Jacobian j = jacobian(observations, i, camera, p);
+      const double weight = observations[i].weight * (freedom + 3) / (freedom + squared);
+      result.hessian += weight * j.transpose() * j;
+      result.gradient += weight * j.transpose() * e;
+    }
+    return result;
   }
 
   void minimize(span<const PointObservation> observations, const Camera& camera,
                 const std::vector<std::uint8_t>& inlier, Pose& camera_from_world) const {
-    const double freedom = options.degrees_of_freedom;
     double damping = 1e-4;
-    double current_cost = cost(observations, camera, inlier, camera_from_world);
+    Evaluation current = evaluate(observations, camera, inlier, camera_from_world);
     for (int iteration = 0; iteration < options.iterations; ++iteration) {
-      Matrix6d hessian = Matrix6d::Zero();
-      Vector6d gradient = Vector6d::Zero();
-      for (std::size_t i = 0; i < observations.size(); ++i) {
-        if (inlier[i] == 0) continue;
-        const Vector3d p = camera_from_world * observations[i].p_world;
-        if (!(p.z() > kNearest_m)) continue;
-        const Vector3d e = error(observations, i, camera, camera_from_world);
-        const Jacobian j = jacobian(observations, i, camera, p);
-        const double weight = observations[i].weight * (freedom + 3) / (freedom + e.squaredNorm());
-        hessian += weight * j.transpose() * j;
-        gradient += weight * j.transpose() * e;
-      }
-      hessian.diagonal() *= 1.0 + damping;
-      const Vector6d step = -hessian.ldlt().solve(gradient);
+      Matrix6d damped = current.hessian;
+      damped.diagonal() *= 1.0 + damping;
+      const Vector6d step = -damped.ldlt().solve(current.gradient);
       if (!step.allFinite()) return;
       const Pose candidate = moved(camera_from_world, step);
-      const double candidate_cost = cost(observations, camera, inlier, candidate);
-      if (candidate_cost < current_cost) {
+      const Evaluation next = evaluate(observations, camera, inlier, candidate);
+      if (next.cost < current.cost) {
         camera_from_world = candidate;
-        current_cost = candidate_cost;
+        current = next;
         damping *= 0.1;
-        if (step.norm() < 1e-7) return;
       } else {
         damping *= 10.0;
       }
+      if (step.norm() < options.converged) return;
     }
   }
 
