@@ -25,7 +25,7 @@ class SpreadOrb {
  public:
   struct Options {
     int features = 1000;
-    int candidates = 3;      ///< times as many corners are detected, of which the best of each place are taken
+    int candidates = 4;      ///< times as many corners are detected, of which the best of each place are taken
     int fast_threshold = 7;  ///< gray values by which a corner differs from what surrounds it
     int cell_px = 32;        ///< side of a place
     int thinning = 4;        ///< times fewer corners are taken where the last frame's were dropped: see `look_past`
