@@ -130,8 +130,8 @@ class PoseRefinement {
     }
   }
 
-  /// Minus the logarithm of Student's density of all flagged errors, but for a constant; half of its derivatives by the
-  /// motion, as Gauss and Newton have them.
+  /// Minus the logarithm of Student's density of all flagged errors, but for a constant; its gradient by the motion,
+  /// and its Hessian as iteratively reweighted least squares have it.
   struct Evaluation {
     double cost = 0.0;
     Matrix6d hessian = Matrix6d::Zero();

@@ -42,8 +42,8 @@ struct MoverFigures {
   }
 };
 
-/// Sums up a sequence. A mover may be an object's if most of its features lie on it; of several, the one that was so in
-/// the last frame remains it, else it is the one with the most (correspondences of CLEAR MOT: Bernardin, Stiefelhagen,
+/// Sums up a sequence. A mover may be an object's if most of its features lie on it; of several, the one that was the
+/// object last remains it, else it is the one with the most (correspondences of CLEAR MOT: Bernardin, Stiefelhagen,
 /// "Evaluating Multiple Object Tracking Performance", EURASIP JIVP 2008). So `switches` does not count how often the
 /// larger of two parts of an object changes.
 class MoverScore {

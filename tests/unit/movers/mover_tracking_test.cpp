@@ -9,7 +9,6 @@
 
 #include <opencv2/features2d.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -176,7 +175,6 @@ TEST(MoverTracking, WhoIsCoveredForHalfASecondKeepsHisIdentifier) {
 }
 
 TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASecond) {
-  std::vector<double> turns_deg;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     synthetic::SceneOptions options = small(75);  // the first slide with its turn
     options.seed = seed;
@@ -185,13 +183,10 @@ TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASeco
     EXPECT_EQ(figures.switches, 0u) << "seed " << seed;
     EXPECT_GE(*figures.found_share(), 0.8) << "seed " << seed;
     ASSERT_GE(figures.carried_m.size(), 10u) << "seed " << seed;
+    EXPECT_LE(median(figures.carried_deg), 3.0) << "seed " << seed;
     EXPECT_LE(median(figures.carried_m), 0.05) << "seed " << seed;
     EXPECT_LE(median(figures.speed_m_s), 0.1) << "seed " << seed;
-    turns_deg.push_back(median(figures.carried_deg));
   }
-  // Of twelve seeds the medians are 1.1 to 3.4 degrees, and another processor's rounding moves one by 1.9.
-  EXPECT_LE(median(turns_deg), 3.0);
-  EXPECT_LE(*std::max_element(turns_deg.begin(), turns_deg.end()), 4.5);
 }
 
 TEST(MoverTracking, NothingMovesInAStaticRoom) {
