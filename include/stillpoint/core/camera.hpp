@@ -58,11 +58,15 @@ class PinholeCamera {
     return {(pixel.x() - cx_) / fx_ * depth_m, (pixel.y() - cy_) / fy_ * depth_m, depth_m};
   }
 
-  /// Undistorted pixel to the pixel in the image.
-  Vector2d distort(const Vector2d& pixel) const { return to_pixel(distortion_.distort(to_plane(pixel))); }
+  /// Undistorted pixel to the pixel in the image. Without a lens it is the same: no division by the focal lengths.
+  Vector2d distort(const Vector2d& pixel) const {
+    return has_no_lens(distortion_) ? pixel : to_pixel(distortion_.distort(to_plane(pixel)));
+  }
 
   /// Pixel in the image to the undistorted pixel.
-  Vector2d undistort(const Vector2d& pixel) const { return to_pixel(distortion_.undistort(to_plane(pixel))); }
+  Vector2d undistort(const Vector2d& pixel) const {
+    return has_no_lens(distortion_) ? pixel : to_pixel(distortion_.undistort(to_plane(pixel)));
+  }
 
  private:
   static void require(bool holds, const char* name, const std::string& found, const char* expected) {

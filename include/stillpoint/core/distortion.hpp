@@ -5,6 +5,7 @@
 // Lens distortion on the normalised image plane (z = 1): what the lens does to a ray, and its inverse.
 
 #include <cmath>
+#include <type_traits>
 #include <variant>
 
 #include "stillpoint/core/geometry.hpp"
@@ -102,15 +103,21 @@ struct EquidistantFisheye {
 struct AnyDistortion {
   std::variant<NoDistortion, BrownConrady, EquidistantFisheye> model;
 
-  // Most depth images come rectified: then nothing is called.
   Vector2d distort(const Vector2d& ideal) const {
-    if (std::holds_alternative<NoDistortion>(model)) return ideal;
     return std::visit([&ideal](const auto& lens) { return lens.distort(ideal); }, model);
   }
   Vector2d undistort(const Vector2d& distorted) const {
-    if (std::holds_alternative<NoDistortion>(model)) return distorted;
     return std::visit([&distorted](const auto& lens) { return lens.undistort(distorted); }, model);
   }
 };
+
+/// Whether a lens leaves every pixel where it is, as in images that come rectified; most depth images do.
+template <class Distortion>
+bool has_no_lens(const Distortion&) noexcept {
+  return std::is_same_v<Distortion, NoDistortion>;
+}
+inline bool has_no_lens(const AnyDistortion& lens) noexcept {
+  return std::holds_alternative<NoDistortion>(lens.model);
+}
 
 }  // namespace stillpoint

@@ -21,12 +21,17 @@ struct DepthScale {
   float x = 1.0f, y = 1.0f;
 
   DepthScale(const ImageView& image, const ImageView& depth) noexcept
-      : x(image.width > 0 ? static_cast<float>(depth.width) / static_cast<float>(image.width) : 1.0f),
-        y(image.height > 0 ? static_cast<float>(depth.height) / static_cast<float>(image.height) : 1.0f) {}
+      : x(ratio(depth.width, image.width)), y(ratio(depth.height, image.height)) {}
 
   /// Pixel centres are integers in both images: (u + ½) scales, not u.
   Vector2f operator()(const Vector2f& pixel) const noexcept {
     return {(pixel.x() + 0.5f) * x - 0.5f, (pixel.y() + 0.5f) * y - 0.5f};
+  }
+
+ private:
+  /// Mostly both images have one size: nothing to divide.
+  static float ratio(int depth_px, int image_px) noexcept {
+    return depth_px == image_px || image_px <= 0 ? 1.0f : static_cast<float>(depth_px) / static_cast<float>(image_px);
   }
 };
 

@@ -40,9 +40,12 @@ struct Patch {
     return trace_half - std::sqrt(difference_half * difference_half + hxy * hxy);
   }
 
-  /// Σ a b of two quantities without their means, from the sums of what they are: exact until the division.
-  float without_means(std::int64_t product, std::int64_t sum_a, std::int64_t sum_b) const noexcept {
-    return static_cast<float>(count * product - sum_a * sum_b) / static_cast<float>(count);
+  /// Whether the mask leaves pixels out.
+  bool is_partial() const noexcept { return count < static_cast<int>(PatchPixels::kCount); }
+
+  /// `count` Σ a b of two quantities without their means, from the sums of what they are: exact until it is rounded.
+  float centred(std::int64_t product, std::int64_t sum_a, std::int64_t sum_b) const noexcept {
+    return static_cast<float>(count * product - sum_a * sum_b);
   }
 };
 
@@ -145,11 +148,12 @@ inline bool cut_patch(const ImageView& gray, const Vector2f& centre, const Patch
   patch.sum_y = -product(patch.mask, patch.slope_y);
   patch.along_x = product(patch.slope_x, patch.value);
   patch.along_y = product(patch.slope_y, patch.value);
-  patch.energy = patch.without_means(product(patch.value, patch.value), patch.sum, patch.sum);
-  constexpr float kQuarter = 0.25f;  // of two slopes each twice a gradient
-  patch.hxx = kQuarter * patch.without_means(product(patch.slope_x, patch.slope_x), patch.sum_x, patch.sum_x);
-  patch.hxy = kQuarter * patch.without_means(product(patch.slope_x, patch.slope_y), patch.sum_x, patch.sum_y);
-  patch.hyy = kQuarter * patch.without_means(product(patch.slope_y, patch.slope_y), patch.sum_y, patch.sum_y);
+  const float per_pixel = 1.0f / static_cast<float>(patch.count);
+  patch.energy = per_pixel * patch.centred(product(patch.value, patch.value), patch.sum, patch.sum);
+  const float quarter = 0.25f * per_pixel;  // of two slopes each twice a gradient
+  patch.hxx = quarter * patch.centred(product(patch.slope_x, patch.slope_x), patch.sum_x, patch.sum_x);
+  patch.hxy = quarter * patch.centred(product(patch.slope_x, patch.slope_y), patch.sum_x, patch.sum_y);
+  patch.hyy = quarter * patch.centred(product(patch.slope_y, patch.slope_y), patch.sum_y, patch.sum_y);
   return true;
 }
 
@@ -209,49 +213,60 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
   const float warp_px =
       Patch::kHalf * (search.warp - Eigen::Matrix2f(Eigen::Matrix2f::Identity())).lpNorm<Eigen::Infinity>();
   const bool shifted_only = warp_px < 0.5f;
-  Vector2f offset = Vector2f::Zero();
-  PatchPixels sample;
-  constexpr int kOne = BilinearWeights::kOne;
+  constexpr float kOne = BilinearWeights::kOne;
   // Elsewhere another content has another contrast, and between pixels there is less: neither is the exposure's.
   constexpr float kAlike = 0.1f, kLeastChange = 0.15f, kLeastGain = 0.2f;
+  const auto squared = [](float x) { return x * x; };
+  // A step waits for each division and root in turn: what is the same for all steps is divided here.
+  const float per_pixel = 1.0f / static_cast<float>(patch.count);
+  const float to_energy = per_pixel / squared(kOne);
+  const float to_likeness = per_pixel / kOne;
+  const float to_squared_gain = 1.0f / (patch.energy + 1e-3f);
+  const float to_step = -per_pixel / (2 * kOne * determinant);
+  Vector2f offset = Vector2f::Zero();
+  PatchPixels sample;
+  float energy_there = 0;
   for (int iteration = 0; iteration < search.iterations; ++iteration) {
     if (!detail::sample_patch(gray, start + offset, search.warp, shifted_only, sample)) break;
     best.inside = true;
-    apply_mask(patch.mask, sample);
+    if (patch.is_partial()) apply_mask(patch.mask, sample);
     const int total = -product(patch.mask, sample);  // the sum, by the quickest of these loops
-    const float energy = patch.without_means(product(sample, sample), total, total) / (kOne * kOne);
-    const float likeness = patch.without_means(product(patch.value, sample), patch.sum, total) / kOne;
+    const float energy = to_energy * patch.centred(product(sample, sample), total, total);
+    const float likeness = to_likeness * patch.centred(product(patch.value, sample), patch.sum, total);
     const float dissimilarity = 1.0f - likeness / std::sqrt(patch.energy * energy + 1e-3f);
     if (dissimilarity < best.dissimilarity) {
       best.dissimilarity = dissimilarity;
-      best.contrast = std::sqrt(energy / static_cast<float>(patch.count));
       best.offset = offset;
+      energy_there = energy;
     }
     if (!(determinant > 0)) break;
     // Σ gradient · (sample / gain − value), all without their means: neither gain nor offset of the exposure counts.
-    const int excess = total - kOne * patch.sum;
+    constexpr int kLevel = BilinearWeights::kOne;
+    const int excess = total - kLevel * patch.sum;
     const int along_x = product(patch.slope_x, sample), along_y = product(patch.slope_y, sample);
-    const int excess_x = along_x - kOne * patch.along_x, excess_y = along_y - kOne * patch.along_y;
-    float bx = patch.without_means(excess_x, patch.sum_x, excess) / (2 * kOne);
-    float by = patch.without_means(excess_y, patch.sum_y, excess) / (2 * kOne);
-    const float gain = std::sqrt(energy / (patch.energy + 1e-3f));
-    if (dissimilarity < kAlike && std::abs(gain - 1.0f) > kLeastChange && gain > kLeastGain) {
-      const float without_gain = (1.0f / gain - 1.0f) / (2 * kOne);
-      bx += without_gain * patch.without_means(along_x, patch.sum_x, total);
-      by += without_gain * patch.without_means(along_y, patch.sum_y, total);
+    float bx = patch.centred(along_x - kLevel * patch.along_x, patch.sum_x, excess);
+    float by = patch.centred(along_y - kLevel * patch.along_y, patch.sum_y, excess);
+    const float squared_gain = energy * to_squared_gain;
+    const bool is_brighter = squared_gain > squared(1 + kLeastChange);
+    const bool is_darker = squared_gain < squared(1 - kLeastChange) && squared_gain > squared(kLeastGain);
+    if (dissimilarity < kAlike && (is_brighter || is_darker)) {
+      const float without_gain = 1.0f / std::sqrt(squared_gain) - 1.0f;
+      bx += without_gain * patch.centred(along_x, patch.sum_x, total);
+      by += without_gain * patch.centred(along_y, patch.sum_y, total);
     }
-    Vector2f step(-(patch.hyy * bx - patch.hxy * by) / determinant, -(patch.hxx * by - patch.hxy * bx) / determinant);
-    step = search.warp * step;
+    Vector2f step = search.warp * Vector2f(to_step * (patch.hyy * bx - patch.hxy * by),
+                                           to_step * (patch.hxx * by - patch.hxy * bx));
     step = {std::clamp(step.x(), -1.0f, 1.0f), std::clamp(step.y(), -1.0f, 1.0f)};
     const Vector2f before = offset;
     offset += step;
-    const float length = offset.norm();
-    if (length > search.reach_px) offset *= search.reach_px / length;
-    if ((offset - before).norm() < search.precision_px) {
+    const float squared_length = offset.squaredNorm();
+    if (squared_length > squared(search.reach_px)) offset *= search.reach_px / std::sqrt(squared_length);
+    if ((offset - before).squaredNorm() < squared(search.precision_px)) {
       if (best.offset == before) best.offset = offset;  // too small a step for another look
       break;
     }
   }
+  if (best.inside) best.contrast = std::sqrt(std::max(energy_there * per_pixel, 0.0f));
   return best;
 }
 

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 
 #include "stillpoint/core/needs_cpp17.hpp"
 
@@ -49,33 +50,41 @@ inline std::int32_t product(const PatchPixels& a, const PatchPixels& b) noexcept
   return total;
 }
 
-/// The shares of four neighbouring pixels in a place between them, in whole numbers that add up to 2¹⁴.
+/// Where a place lies between four pixels, in fixed point. Interpolates along lines first, then between two lines, so
+/// that both steps fit 16 bits.
 struct BilinearWeights {
-  static constexpr int kBits = 14;
-  static constexpr int kFractionBits = 4;                   ///< of a sampled gray value …
-  static constexpr int kOne = 1 << kFractionBits;           ///< … so that this is one gray level
-  static constexpr int kShift = kBits - kFractionBits;      ///< from a weighted sum to a sampled gray value
-  static constexpr std::int32_t kHalf = 1 << (kShift - 1);  ///< for rounding
+  static constexpr int kLineBits = 7;                     ///< of a gray value between two pixels of a line: 255 · 2⁷ < 2¹⁵
+  static constexpr int kFractionBits = 4;                 ///< of a sampled gray value …
+  static constexpr int kOne = 1 << kFractionBits;         ///< … so that this is one gray level
+  static constexpr int kShift = kLineBits - kFractionBits;  ///< from the one to the other
+  /// For rounding: ½, and 1 for the half that `between_lines` drops on average, twice.
+  static constexpr std::int16_t kHalf = (1 << (kShift - 1)) + 1;
 
-  std::int16_t here, right, below, diagonal;
+  std::int16_t right;  ///< 0 to 2⁷
+  std::int16_t below;  ///< 0 to 2¹⁵ − 1
 
   /// @param a, b  from the pixel to the place, right and down, 0 to 1
-  BilinearWeights(float a, float b) noexcept {
-    constexpr float kAll = 1 << kBits;
-    // Rounded up from ½: none is negative.
-    here = static_cast<std::int16_t>((1 - a) * (1 - b) * kAll + 0.5f);
-    right = static_cast<std::int16_t>(a * (1 - b) * kAll + 0.5f);
-    below = static_cast<std::int16_t>((1 - a) * b * kAll + 0.5f);
-    diagonal = static_cast<std::int16_t>((1 << kBits) - here - right - below);
+  BilinearWeights(float a, float b) noexcept
+      : right(static_cast<std::int16_t>(a * (1 << kLineBits) + 0.5f)),  // rounded: none is negative
+        below(static_cast<std::int16_t>(b * std::numeric_limits<std::int16_t>::max() + 0.5f)) {}
+
+  std::int16_t along_line(std::int16_t left_pixel, std::int16_t right_pixel) const noexcept {
+    return static_cast<std::int16_t>((left_pixel << kLineBits) + right * (right_pixel - left_pixel));
+  }
+
+  /// In sixteenths of a level. The upper 16 bits of a product are one vector instruction; half of the step between the
+  /// lines is what they hold.
+  std::int16_t between_lines(std::int16_t upper, std::int16_t lower) const noexcept {
+    const auto step = static_cast<std::int16_t>(lower - upper);
+    const auto half = static_cast<std::int16_t>((std::int32_t{step} * std::int32_t{below}) >> 16);
+    return static_cast<std::int16_t>(static_cast<std::int16_t>(upper + 2 * half + kHalf) >> kShift);
   }
 };
 
 /// The gray value between the pixels upper[0], upper[1], lower[0] and lower[1], in sixteenths of a level.
 inline std::int16_t sample_pixel(const std::uint8_t* upper, const std::uint8_t* lower,
                                  const BilinearWeights& weights) noexcept {
-  const std::int32_t mean =
-      weights.here * upper[0] + weights.right * upper[1] + weights.below * lower[0] + weights.diagonal * lower[1];
-  return static_cast<std::int16_t>((mean + BilinearWeights::kHalf) >> BilinearWeights::kShift);
+  return weights.between_lines(weights.along_line(upper[0], upper[1]), weights.along_line(lower[0], lower[1]));
 }
 
 /// `sample_pixel` of a whole patch; reads nine pixels of nine lines.
@@ -84,41 +93,17 @@ inline std::int16_t sample_pixel(const std::uint8_t* upper, const std::uint8_t* 
 inline void sample_square(const std::uint8_t* first, std::size_t stride_bytes, const BilinearWeights& weights,
                           PatchPixels& out) noexcept {
   constexpr std::size_t kSide = PatchPixels::kSide, kLines = kSide + 1, kPadded = (kLines + 1) * kSide;
-  std::array<std::uint8_t, kPadded> left_bytes, right_bytes;
-  for (std::size_t j = 0; j < kLines; ++j) {
-    std::memcpy(&left_bytes[kSide * j], first + j * stride_bytes, kSide);
-    std::memcpy(&right_bytes[kSide * j], first + j * stride_bytes + 1, kSide);
+  std::array<std::uint8_t, kPadded> left, right;
+  for (std::size_t j = 0; j <= kLines; ++j) {
+    // The last line twice: an even number of lines fills whole registers.
+    const std::uint8_t* const line = first + (j < kLines ? j : kLines - 1) * stride_bytes;
+    std::memcpy(&left[kSide * j], line, kSide);
+    std::memcpy(&right[kSide * j], line + 1, kSide);
   }
-  // A line more than is needed: an even number of lines fills whole registers of bytes.
-  std::memset(&left_bytes[kSide * kLines], 0, kSide);
-  std::memset(&right_bytes[kSide * kLines], 0, kSide);
-  alignas(16) std::array<std::int16_t, kPadded> left, right;
-  for (std::size_t k = 0; k < kPadded; ++k) {
-    left[k] = left_bytes[k];
-    right[k] = right_bytes[k];
-  }
-
-  // Σ w p = 2¹⁴ p₀ + Σ w (p − p₀) over the other three pixels, in two parts that 16 bits hold: w = 64 coarse + fine
-  // with −32 ≤ fine < 32, so that |Σ fine (p − p₀)| ≤ 3 · 32 · 255. Coarse products wrap around, but not what they add
-  // up to: it is (Σ w p + ½) / 64, below 2¹⁶.
-  constexpr int kFineBits = 6;
-  const auto coarse = [](std::int16_t w) { return (w + (1 << (kFineBits - 1))) >> kFineBits; };
-  const auto fine = [&coarse](std::int16_t w) { return static_cast<std::int16_t>(w - (coarse(w) << kFineBits)); };
-  const auto right_coarse = static_cast<std::int16_t>(coarse(weights.right)), right_fine = fine(weights.right);
-  const auto below_coarse = static_cast<std::int16_t>(coarse(weights.below)), below_fine = fine(weights.below);
-  const auto diagonal_coarse = static_cast<std::int16_t>(coarse(weights.diagonal)),
-             diagonal_fine = fine(weights.diagonal);
-  for (std::size_t k = 0; k < PatchPixels::kCount; ++k) {
-    const auto to_right = static_cast<std::int16_t>(right[k] - left[k]);
-    const auto to_below = static_cast<std::int16_t>(left[k + kSide] - left[k]);
-    const auto to_diagonal = static_cast<std::int16_t>(right[k + kSide] - left[k]);
-    const auto rest = static_cast<std::int16_t>(right_fine * to_right + below_fine * to_below +
-                                                diagonal_fine * to_diagonal + BilinearWeights::kHalf);
-    const auto mean =
-        static_cast<std::uint16_t>((left[k] << (BilinearWeights::kBits - kFineBits)) + right_coarse * to_right +
-                                   below_coarse * to_below + diagonal_coarse * to_diagonal + (rest >> kFineBits));
-    out.pixel[k] = static_cast<std::int16_t>(mean >> (BilinearWeights::kShift - kFineBits));
-  }
+  alignas(16) std::array<std::int16_t, kPadded> between;
+  for (std::size_t k = 0; k < kPadded; ++k) between[k] = weights.along_line(left[k], right[k]);
+  for (std::size_t k = 0; k < PatchPixels::kCount; ++k)
+    out.pixel[k] = weights.between_lines(between[k], between[k + kSide]);
 }
 
 }  // namespace stillpoint

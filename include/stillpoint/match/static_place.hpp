@@ -64,18 +64,32 @@ struct PlaceTest {
 namespace detail {
 
 /// Is a pixel of a 3 × 3 grid with such a spacing nearer? Depths are in the units of the image; what would lie outside
-/// is taken at the border.
+/// is taken at the border. All nine are read before the first decides, so that none waits for another.
 template <class Depth>
 bool any_nearer(const ImageView& depth, int u, int v, int across, int down, Depth nearer_than) noexcept {
   const auto inside = [](int at, int size) { return std::min(std::max(at, 0), size - 1); };
   const int left = inside(u - across, depth.width), middle = inside(u, depth.width),
             right = inside(u + across, depth.width);
-  const auto in_row = [&](int at) {
-    const Depth* const row = depth.row<Depth>(inside(at, depth.height));
-    const auto is_nearer = [nearer_than](Depth there) { return (there > 0) & (there < nearer_than); };
-    return is_nearer(row[left]) || is_nearer(row[middle]) || is_nearer(row[right]);
+  const auto is_nearer = [nearer_than](Depth there) { return (there > 0) & (there < nearer_than); };
+  const Depth* const above = depth.row<Depth>(inside(v - down, depth.height));
+  const Depth* const here = depth.row<Depth>(inside(v, depth.height));
+  const Depth* const below = depth.row<Depth>(inside(v + down, depth.height));
+  return is_nearer(above[left]) | is_nearer(above[middle]) | is_nearer(above[right]) | is_nearer(here[left]) |
+         is_nearer(here[middle]) | is_nearer(here[right]) | is_nearer(below[left]) | is_nearer(below[middle]) | is_nearer(below[right]);
+}
+
+/// `beside_occluder` in a depth image of one type.
+template <class Depth>
+bool beside_nearer(const ImageView& depth, const DepthScale& to_depth, const Vector2f& pixel, Depth nearer_than,
+                   int reach_px) noexcept {
+  const Vector2f at = to_depth(pixel);
+  const int u = rounded(at.x()), v = rounded(at.y());
+  const auto in_ring = [&](int ring_px) {
+    const int across = std::max(1, rounded(to_depth.x * static_cast<float>(ring_px)));
+    const int down = std::max(1, rounded(to_depth.y * static_cast<float>(ring_px)));
+    return any_nearer(depth, u, v, across, down, nearer_than);
   };
-  return in_row(v - down) || in_row(v) || in_row(v + down);
+  return in_ring((reach_px + 1) / 2) | in_ring(reach_px);
 }
 
 }  // namespace detail
@@ -86,19 +100,12 @@ inline bool beside_occluder(const FrameView& frame, const Vector2f& pixel, doubl
   if (frame.depth.empty() || reach_px <= 0) return false;
   const ImageView& depth = frame.depth.image;
   const DepthScale to_depth(frame.gray, depth);
-  const Vector2f at = to_depth(pixel);
-  const int u = rounded(at.x()), v = rounded(at.y());
+  if (depth.format != PixelFormat::depth16)
+    return detail::beside_nearer(depth, to_depth, pixel, static_cast<float>(nearer_than_m), reach_px);
   constexpr double kMost = std::numeric_limits<std::uint16_t>::max();
   const auto nearer_than =
       static_cast<std::uint16_t>(std::clamp(std::ceil(nearer_than_m * frame.depth.factor), 0.0, kMost));
-  const auto is_near = [&](int ring_px) {
-    const int across = std::max(1, rounded(to_depth.x * static_cast<float>(ring_px)));
-    const int down = std::max(1, rounded(to_depth.y * static_cast<float>(ring_px)));
-    return depth.format == PixelFormat::depth16
-               ? detail::any_nearer(depth, u, v, across, down, nearer_than)
-               : detail::any_nearer(depth, u, v, across, down, static_cast<float>(nearer_than_m));
-  };
-  return is_near((reach_px + 1) / 2) || is_near(reach_px);
+  return detail::beside_nearer(depth, to_depth, pixel, nearer_than, reach_px);
 }
 
 /// A length that options give for a focal length of 525 px, in whole pixels of this camera.

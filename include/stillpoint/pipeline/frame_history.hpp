@@ -48,7 +48,9 @@ class FrameHistory {
   const SpaceHistory& space() const noexcept { return space_; }
 
   /// The frame `age` frames before the current one: 1 is the last, size() the oldest.
-  const PastFrame& back(std::size_t age) const noexcept { return ring_[(head_ + ring_.size() - age) % ring_.size()]; }
+  const PastFrame& back(std::size_t age) const noexcept {
+    return ring_[age <= head_ ? head_ - age : head_ + ring_.size() - age];
+  }
 
   /// The filter's own chained pose of the frame to which `motion` leads from the last one.
   Pose filter_from_current(const Motion& motion) const {
