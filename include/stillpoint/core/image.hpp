@@ -81,30 +81,30 @@ class ImageBuffer {
     width_ = width;
     height_ = height;
     format_ = format;
-    pixels_.resize(static_cast<std::size_t>(height) * stride_bytes());
+    stride_bytes_ = static_cast<std::size_t>(width) * bytes_per_pixel(format);
+    pixels_.resize(static_cast<std::size_t>(height) * stride_bytes_);
   }
 
   void assign(const ImageView& image) {
     if (image.empty()) return resize(0, 0, PixelFormat::none);
     resize(image.width, image.height, image.format);
-    for (int v = 0; v < height_; ++v) std::memcpy(row<std::uint8_t>(v), image.row<std::uint8_t>(v), stride_bytes());
+    for (int v = 0; v < height_; ++v) std::memcpy(row<std::uint8_t>(v), image.row<std::uint8_t>(v), stride_bytes_);
   }
 
   ImageView view() const noexcept {
-    return pixels_.empty() ? ImageView() : ImageView(pixels_.data(), width_, height_, stride_bytes(), format_);
+    return pixels_.empty() ? ImageView() : ImageView(pixels_.data(), width_, height_, stride_bytes_, format_);
   }
 
   template <class T>
   T* row(int v) noexcept {
-    return reinterpret_cast<T*>(pixels_.data() + static_cast<std::size_t>(v) * stride_bytes());
+    return reinterpret_cast<T*>(pixels_.data() + static_cast<std::size_t>(v) * stride_bytes_);
   }
 
  private:
-  std::size_t stride_bytes() const noexcept { return static_cast<std::size_t>(width_) * bytes_per_pixel(format_); }
-
   std::vector<std::uint8_t> pixels_;
   int width_ = 0;
   int height_ = 0;
+  std::size_t stride_bytes_ = 0;
   PixelFormat format_ = PixelFormat::none;
 };
 

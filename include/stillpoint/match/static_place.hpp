@@ -75,7 +75,8 @@ bool any_nearer(const ImageView& depth, int u, int v, int across, int down, Dept
   const Depth* const here = depth.row<Depth>(inside(v, depth.height));
   const Depth* const below = depth.row<Depth>(inside(v + down, depth.height));
   return is_nearer(above[left]) | is_nearer(above[middle]) | is_nearer(above[right]) | is_nearer(here[left]) |
-         is_nearer(here[middle]) | is_nearer(here[right]) | is_nearer(below[left]) | is_nearer(below[middle]) | is_nearer(below[right]);
+         is_nearer(here[middle]) | is_nearer(here[right]) | is_nearer(below[left]) | is_nearer(below[middle]) |
+         is_nearer(below[right]);
 }
 
 /// `beside_occluder` in a depth image of one type.
@@ -89,7 +90,7 @@ bool beside_nearer(const ImageView& depth, const DepthScale& to_depth, const Vec
     const int down = std::max(1, rounded(to_depth.y * static_cast<float>(ring_px)));
     return any_nearer(depth, u, v, across, down, nearer_than);
   };
-  return in_ring((reach_px + 1) / 2) | in_ring(reach_px);
+  return in_ring((reach_px + 1) / 2) || in_ring(reach_px);
 }
 
 }  // namespace detail
