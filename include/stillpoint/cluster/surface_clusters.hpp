@@ -157,19 +157,23 @@ class SurfaceClusters {
   /// One whose depth was not measured has the extent of the next nearer one.
   void whiten(const Matches& matches, span<const std::uint32_t> member, span<double> whitened,
               Workspace& workspace) const {
-    const span<std::uint32_t> order = workspace.take<std::uint32_t>(member.size());
-    for (std::size_t j = 0; j < order.size(); ++j) order[j] = static_cast<std::uint32_t>(j);
-    const auto depth_m = [&](std::size_t j) { return surface_depth_m(matches, member[j]); };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return depth_m(a) != depth_m(b) ? depth_m(a) < depth_m(b) : a < b;
+    struct ByDepth {
+      double depth_m = 0;  // beside the index: what is compared is not looked up again
+      std::uint32_t member = 0;
+    };
+    const span<ByDepth> order = workspace.take<ByDepth>(member.size());
+    for (std::size_t j = 0; j < order.size(); ++j)
+      order[j] = {surface_depth_m(matches, member[j]), static_cast<std::uint32_t>(j)};
+    std::sort(order.begin(), order.end(), [](const ByDepth& a, const ByDepth& b) {
+      return a.depth_m != b.depth_m ? a.depth_m < b.depth_m : a.member < b.member;
     });
-    double sum = 0, last_m = depth_m(order[0]), last_density = 1.0 / depth_extent_m;
-    for (const std::uint32_t j : order) {
+    double sum = 0, last_m = order[0].depth_m, last_density = 1.0 / depth_extent_m;
+    for (const auto& [depth_m, j] : order) {
       const double extent_m = depth_extent_m + depth_extent_sigmas * matches.current.depth_sigma_m[member[j]];
       const double density = matches.current.has_depth(member[j]) ? 1.0 / extent_m : last_density;
-      sum += 0.5 * (density + last_density) * (depth_m(j) - last_m);
+      sum += 0.5 * (density + last_density) * (depth_m - last_m);
       whitened[j] = sum;
-      last_m = depth_m(j);
+      last_m = depth_m;
       last_density = density;
     }
   }

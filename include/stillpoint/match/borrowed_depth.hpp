@@ -25,7 +25,8 @@ double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& 
   constexpr int kRounds = 3;
   constexpr double kNearest_m = 0.1;
   constexpr double kAgreed = 0.1;                                     // of what depths differ by on one surface
-  const Vector3d along = rotation_of(reference_from_current).col(2);  // this camera's axis, in the older one
+  const Eigen::Matrix4d& motion = reference_from_current.matrix();
+  const Vector3d along(motion(0, 2), motion(1, 2), motion(2, 2));  // this camera's axis, in the older one
   double depth_m = start_m;
   for (int round = 0; round < kRounds; ++round) {
     const Vector3d there = reference_from_current * camera.back_project(pixel, depth_m);

@@ -102,7 +102,8 @@ class CornerTracker {
   static constexpr float kWeakestCorner = 600.0f;
   static constexpr std::size_t kPyramidLevels = 4;  // with a reach of 3 px on each: 45 px between two frames
   static constexpr float kTooVague = 0.5f;   // on a coarse level a fit this bad does not move the start of the next
-  static constexpr int kFewestPixels = 25;   // of a patch's 64 that must lie on the corner's surface
+  static constexpr float kCoarsePrecision_px = 0.2f;  // of a level that only says where the next one begins
+  static constexpr int kFewestPixels = 25;            // of a patch's 64 that must lie on the corner's surface
   static constexpr float kBorder_px = 8.0f;  // nearer to the border than this a match is `near_edge`
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
@@ -160,7 +161,9 @@ class CornerTracker {
       fit = PatchFit();
       if (!cut_patch(current_[level], cut, mask, patch)) continue;
       const float scale = static_cast<float>(std::size_t{1} << level);
-      fit = find_patch(patch, reference_[level], cut + displacement / scale, PatchSearch{});
+      PatchSearch search;
+      if (level > 0) search.precision_px = kCoarsePrecision_px;
+      fit = find_patch(patch, reference_[level], cut + displacement / scale, search);
       if (fit.inside && (level == 0 || fit.dissimilarity < kTooVague)) displacement += fit.offset * scale;
     }
     if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < kFewestPixels) return;

@@ -14,6 +14,7 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/lanes.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 
@@ -66,6 +67,20 @@ inline void slide_down(const ImageView& image, int v, float* row, float* sums) n
   for (; u + 1 < width; ++u) slide(u, std::integral_constant<std::size_t, 1>());
 }
 
+/// Keeps the greater of two numbers in each column, of equal ones the first, and the row that it comes from.
+/// @param columns  a multiple of four
+inline void keep_strongest(const float* half_trace, const float* root, float row, std::size_t columns, float* strongest,
+                           float* row_of) noexcept {
+  const FloatLanes here{row, row, row, row};
+  for (std::size_t u = 0; u < columns; u += 4) {
+    const FloatLanes strength = float_lanes(half_trace + u) - float_lanes(root + u), before = float_lanes(strongest + u);
+    const FloatLanes kept = strength > before ? strength : before;
+    const FloatLanes kept_row = strength > before ? here : float_lanes(row_of + u);
+    std::memcpy(strongest + u, &kept, sizeof kept);
+    std::memcpy(row_of + u, &kept_row, sizeof kept_row);
+  }
+}
+
 }  // namespace detail
 
 /// The strongest corner of each cell, by the smaller eigenvalue of the structure tensor over 5 × 5 pixels.
@@ -81,26 +96,25 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
   if (columns <= 2 * kBorder || rows <= 2 * kBorder) return;
   const Workspace::Scope scope(workspace);
   const auto width = static_cast<std::size_t>(columns);
-  const int cells_across = (columns + cell_px - 1) / cell_px;
-  struct Best {
-    float strength = 0;
-    int u = 0, v = 0;
-  };
-  const span<Best> best = workspace.take<Best>(static_cast<std::size_t>(cells_across));
   // Column sums of the gradient products over 2 kRadius + 1 rows slide down the image.
   constexpr int kRows = 2 * kRadius + 1;
-  const span<float> sums = workspace.take<float>(3 * width), strength = workspace.take<float>(width),
-                    half_trace = workspace.take<float>(width);
-  Eigen::Map<Eigen::ArrayXf> roots(strength.data(), columns);
+  const std::size_t padded = (width + 3) / 4 * 4;
+  const span<float> sums = workspace.take<float>(3 * width), root = workspace.take<float>(padded),
+                    half_trace = workspace.take<float>(padded), strongest = workspace.take<float>(padded),
+                    row_of = workspace.take<float>(padded);
+  Eigen::Map<Eigen::ArrayXf> roots(root.data(), columns);
   const span<float> products = workspace.take<float>(3 * width * kRows);
   const auto add_row = [&](int v) {
     detail::slide_down(image, v, products.data() + 3 * width * static_cast<std::size_t>(v % kRows), sums.data());
   };
   const auto flush = [&] {
-    for (Best& cell : best) {
-      if (cell.strength > weakest) corners.emplace_back(static_cast<float>(cell.u), static_cast<float>(cell.v));
-      cell = Best{};
+    for (int begin = 0; begin < columns; begin += cell_px) {
+      std::size_t best = static_cast<std::size_t>(begin);
+      for (auto u = best; u < static_cast<std::size_t>(std::min(begin + cell_px, columns)); ++u)
+        if (strongest[u] > strongest[best] || (strongest[u] == strongest[best] && row_of[u] < row_of[best])) best = u;
+      if (strongest[best] > weakest) corners.emplace_back(static_cast<float>(best), row_of[best]);
     }
+    std::fill(strongest.begin(), strongest.end(), 0.0f);
   };
   for (int v = kBorder - kRadius; v < kBorder + kRadius; ++v) add_row(v);
   for (int v = kBorder; v < rows - kBorder; ++v) {
@@ -110,7 +124,7 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
     };
     const auto sum_xx = across(sums.data()), sum_xy = across(sums.data() + width),
                sum_yy = across(sums.data() + 2 * width);
-    float* const out = strength.data();
+    float* const out = root.data();
     for (int u = kBorder; u < columns - kBorder; ++u) {
       const float a = sum_xx(u), b = sum_xy(u), c = sum_yy(u);
       half_trace[static_cast<std::size_t>(u)] = 0.5f * (a + c);
@@ -118,14 +132,8 @@ inline void grid_corners(const ImageView& image, int cell_px, float weakest, std
     }
     // Eigen's roots come four at a time; std::sqrt's would one by one, because of errno.
     roots = roots.sqrt();
-    for (std::size_t u = 0; u < width; ++u) strength[u] = half_trace[u] - strength[u];
-    for (int begin = 0, end = cell_px; begin < columns; begin = end, end += cell_px) {
-      Best& cell = best[static_cast<std::size_t>(begin / cell_px)];
-      const int first = std::max(begin, kBorder), last = std::min(end, columns - kBorder);
-      if (first >= last || !(*std::max_element(out + first, out + last) > cell.strength)) continue;
-      for (int u = first; u < last; ++u)
-        if (out[u] > cell.strength) cell = {out[u], u, v};
-    }
+    detail::keep_strongest(half_trace.data(), root.data(), static_cast<float>(v), padded, strongest.data(),
+                           row_of.data());
     if ((v + 1) % cell_px == 0) flush();
   }
   flush();

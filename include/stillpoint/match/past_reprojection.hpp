@@ -21,6 +21,7 @@
 #include "stillpoint/match/borrowed_depth.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/same_place.hpp"
 #include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/static_place.hpp"
 #include "stillpoint/match/surface_search.hpp"
@@ -62,8 +63,13 @@ class PastReprojection {
     Matches& matches = observations.matches;
     look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
                       matches.past_observations.frames());
+    SamePlace same_place(kNeighbourhood_px);
     for (const std::size_t i : matches.past_observations.order) {
-      if (matches.current.has_depth(i)) {
+      const bool may_share = i < matches.host_count && is_finite(matches.current.undistorted[i]);
+      const std::size_t alike = may_share ? same_place.find(matches.current, i) : i;
+      if (alike != i) {
+        adopt(i, alike, camera, matches);
+      } else if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
         look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), std::numeric_limits<float>::infinity(),
              history, current, camera, noise, matches);
@@ -94,6 +100,22 @@ class PastReprojection {
     std::vector<std::uint32_t>& order = matches.past_observations.order;
     order.resize(grid.size());
     for (std::size_t rank = 0; rank < order.size(); ++rank) order[rank] = static_cast<std::uint32_t>(grid.index(rank));
+  }
+
+  /// What was found of a feature is found of another that lies on it, beside.
+  template <class Camera>
+  static void adopt(std::size_t i, std::size_t alike, const Camera& camera, Matches& matches) {
+    const FrameFeatures& features = matches.current;
+    const PastObservations& past = matches.past_observations;
+    if (!is_finite(past.point[alike])) return;  // on no surface: not looked for
+    const double depth_m = features.has_depth(i) ? features.depth_m[i] : past.point[alike].z();
+    suppose(i, depth_m, past.inverse_depth_sigma[alike], camera, matches);
+    const Vector2f beside = Vector2d(features.undistorted[i] - features.undistorted[alike]).cast<float>();
+    for (OlderFrame& older : matches.past_observations.frames()) {
+      Observation& observation = older.of_feature[i] = older.of_feature[alike];
+      observation.found += beside;
+      if (observation.depth_m > 0) observation.depth_m += static_cast<float>(depth_m - features.depth_m[alike]);
+    }
   }
 
   /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
@@ -204,7 +226,7 @@ class PastReprojection {
   template <class Camera>
   static Eigen::Matrix2f view_warp(const Camera& camera, const Vector3d& here, const Vector3d& there,
                                    const Pose& reference_from_current) {
-    const Matrix3d turn = rotation_of(reference_from_current);
+    const Eigen::Matrix4d& turn = reference_from_current.matrix();
     const double x = there.x() / there.z(), y = there.y() / there.z(), aspect = camera.fx() / camera.fy();
     const double scale = here.z() / there.z();
     const auto scaled = [scale](double step) { return static_cast<float>(scale * step); };
