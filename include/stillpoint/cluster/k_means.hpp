@@ -101,6 +101,52 @@ class NearestCentre {
   span<std::int32_t> index_;
 };
 
+/// Draws points with a probability proportional to their squared distance. Sums are of blocks first: the sum over all
+/// points in a row would wait for each addition.
+class SquaredDistanceDraw {
+ public:
+  SquaredDistanceDraw(const NearestCentre& nearest, std::size_t points, Workspace& workspace)
+      : nearest_(nearest), points_(points), block_sum_(workspace.take<double>((points + kBlock - 1) / kBlock)) {}
+
+  /// @return the point; `points` where all distances are 0
+  std::size_t operator()(Random& random) {
+    double total = 0;
+    for (std::size_t b = 0; b < block_sum_.size(); ++b) {
+      double even = 0, odd = 0;
+      std::size_t i = b * kBlock;
+      for (; i + 1 < end_of(b); i += 2) {
+        even += squared(i);
+        odd += squared(i + 1);
+      }
+      if (i < end_of(b)) even += squared(i);
+      total += block_sum_[b] = even + odd;
+    }
+    if (!(total > 0)) return points_;
+    double left = random.uniform() * total;
+    std::size_t block = 0;
+    while (block + 1 < block_sum_.size() && left >= block_sum_[block]) left -= block_sum_[block++];
+    std::size_t chosen = points_;
+    for (std::size_t i = block * kBlock; i < points_ && !(chosen < points_ && left < 0); ++i) {
+      if (squared(i) > 0) chosen = i;
+      left -= squared(i);
+    }
+    // Rounding may leave a little where nothing follows: then it is the last that has a distance at all.
+    for (std::size_t i = points_; chosen == points_ && i-- > 0;)
+      if (squared(i) > 0) chosen = i;
+    return chosen;
+  }
+
+ private:
+  static constexpr std::size_t kBlock = 16;
+
+  std::size_t end_of(std::size_t block) const noexcept { return std::min((block + 1) * kBlock, points_); }
+  double squared(std::size_t i) const noexcept { return static_cast<double>(nearest_.squared(i)); }
+
+  const NearestCentre& nearest_;
+  std::size_t points_;
+  span<double> block_sum_;
+};
+
 }  // namespace detail
 
 /// k-means++: each further centre is a point drawn with probability proportional to its squared distance to the centres
@@ -111,22 +157,13 @@ inline span<Eigen::Vector3f> k_means_plus_plus(const PointArrays& points, std::s
   const span<Eigen::Vector3f> centres = workspace.take<Eigen::Vector3f>(k, Eigen::Vector3f::Zero());
   const Workspace::Scope scope(workspace);
   detail::NearestCentre nearest(points, workspace);
+  detail::SquaredDistanceDraw draw(nearest, points.size, workspace);
   std::size_t chosen = random.index(points.size);
   for (std::size_t c = 0; c < k; ++c) {
     centres[c] = points[chosen];
     nearest.offer(centres.subspan(c, 1), static_cast<std::int32_t>(c));
-    double total = 0;
-    for (std::size_t i = 0; i < points.size; ++i) total += static_cast<double>(nearest.squared(i));
-    if (!(total > 0)) {  // fewer different points than centres
-      chosen = random.index(points.size);
-      continue;
-    }
-    double left = random.uniform() * total;
-    for (std::size_t i = 0; i < points.size; ++i) {
-      if (nearest.squared(i) > 0) chosen = i;
-      left -= static_cast<double>(nearest.squared(i));
-      if (left < 0) break;
-    }
+    chosen = draw(random);
+    if (chosen == points.size) chosen = random.index(points.size);  // fewer different points than centres
   }
   return centres;
 }

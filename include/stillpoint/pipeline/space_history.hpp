@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -42,8 +43,20 @@ struct PooledDepth {
     refill(nearest_m, static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
     const ImageView& depth = frame.depth.image;
     if (depth.empty()) return;
-    const float across = static_cast<float>(depth.width) / static_cast<float>(width);
-    const float down = static_cast<float>(depth.height) / static_cast<float>(height);
+    if (depth.format == PixelFormat::depth16)
+      pool<std::uint16_t>(frame.depth);
+    else
+      pool<float>(frame.depth);
+    spread_nearest();
+  }
+
+ private:
+  /// The nearest of each block, compared in the units of the image: one division for a block.
+  template <class Depth>
+  void pool(const DepthView& depth) {
+    constexpr Depth kMost = std::numeric_limits<Depth>::max();
+    const float across = static_cast<float>(depth.image.width) / static_cast<float>(width);
+    const float down = static_cast<float>(depth.image.height) / static_cast<float>(height);
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u) {
         const int first_u = static_cast<int>(static_cast<float>(u) * across);
@@ -51,20 +64,18 @@ struct PooledDepth {
         const int first_v = static_cast<int>(static_cast<float>(v) * down);
         const int last_v = std::max(first_v + 1, static_cast<int>(static_cast<float>(v + 1) * down));
         int known = 0;
-        float nearest = std::numeric_limits<float>::infinity();
+        Depth nearest = kMost;
         for (int y = first_v; y < last_v; ++y)
           for (int x = first_u; x < last_u; ++x) {
-            const float depth_m = frame.depth.metres(x, y);
-            if (!(depth_m > 0.0f)) continue;
+            const Depth there = depth.image.row<Depth>(y)[x];
+            if (!(there > 0 && there <= kMost)) continue;  // nothing, or not finite
             ++known;
-            nearest = std::min(nearest, depth_m);
+            nearest = std::min(nearest, there);
           }
-        if (2 * known >= (last_u - first_u) * (last_v - first_v)) nearest_m[index(u, v)] = nearest;
+        if (2 * known >= (last_u - first_u) * (last_v - first_v)) nearest_m[index(u, v)] = depth.metres(nearest);
       }
-    spread_nearest();
   }
 
- private:
   /// Least of three by three, in place: each row's least of three, then the rows above and below. A border block has
   /// neighbours that are unknown.
   void spread_nearest() {

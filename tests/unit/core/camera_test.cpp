@@ -33,6 +33,20 @@ TEST(PinholeCamera, BackProjectsByHand) {
   EXPECT_LE((kCamera.back_project({420, 170}, 2.0) - Vector3d(0.4, -0.3, 2.0)).norm(), 1e-15);
 }
 
+// To the plane z = 1 and back it would be rounded.
+TEST(PinholeCamera, WithoutALensAPixelIsUndistortedToTheBit) {
+  const Camera camera(525.3, 524.7, 319.5, 239.1, 640, 480);
+  const PinholeCamera<NoDistortion> ideal(525.3, 524.7, 319.5, 239.1, 640, 480);
+  Random random(3);
+  for (int i = 0; i < 1000; ++i) {
+    const Vector2d pixel(random.uniform(0, 640), random.uniform(0, 480));
+    ASSERT_EQ(camera.undistort(pixel), pixel);
+    ASSERT_EQ(camera.distort(pixel), pixel);
+    ASSERT_EQ(ideal.undistort(pixel), pixel);
+    ASSERT_EQ(ideal.distort(pixel), pixel);
+  }
+}
+
 TEST(PinholeCamera, ProjectUndoesBackProject) {
   Random random(1);
   for (int i = 0; i < 1000; ++i) {

@@ -83,18 +83,21 @@ class PastReprojectionTest : public testing::Test {
  protected:
   PastReprojectionTest() { past_reprojection_.options.occlusion_sigmas = 4.0; }
 
-  Observation look(const Vector2f& pixel) {
+  Observation look(const Vector2f& pixel) { return look_for({pixel})[0]; }
+
+  /// What the older frame shows of each.
+  std::vector<Observation> look_for(const std::vector<Vector2f>& pixels) {
     FrameHistory history(4);
     history.push(FrameView(older_gray_, DepthView::tum(older_depth_), 1.0), Pose::Identity());
     const FrameView current(gray_, DepthView::tum(depth_), 1.1);
-    matches_.begin(std::vector<Vector2f>{pixel});
+    matches_.begin(pixels);
     lift(current, GuardedDepth(), camera_, noise_, matches_.current);
     past_reprojection_.choose_keyframes(history, current, filter_from_current_, camera_, noise_, matches_, workspace_);
     Observations observations = test::observations_of(matches_);
     past_reprojection_.reproject_into_past(history, current, filter_from_current_, camera_, noise_, observations);
     matches_ = observations.matches;
     EXPECT_EQ(matches_.past_observations.frames().size(), 1u);
-    return matches_.past_observations.frames()[0].of_feature[0];
+    return matches_.past_observations.frames()[0].of_feature;
   }
 
   static cv::Mat wall(double depth_m) { return cv::Mat(120, 160, CV_32FC1, cv::Scalar(depth_m)); }
@@ -127,6 +130,20 @@ TEST_F(PastReprojectionTest, TheKnownMotionIsTakenOut) {
   EXPECT_EQ(observation.state, ObservationState::seen);
   EXPECT_LT((observation.found - Vector2f(82, 60)).norm(), 0.05f);
   EXPECT_LT(observation.dissimilarity, 0.01f);
+}
+
+// A wall that is farther by 1 mm in each column. The second keypoint has another whole pixel, and would be compared by
+// another patch.
+TEST_F(PastReprojectionTest, WhatLiesOnAFeatureIsFoundBesideIt) {
+  for (int u = 0; u < 160; ++u) depth_.col(u).setTo(2.0 + 0.001 * u);
+  older_depth_ = depth_.clone();
+  older_gray_ = texture_.shifted(160, 120, {-0.5, 0.25});
+  const std::vector<Observation> observation = look_for({{80, 60}, {80.75f, 60.5f}, {84, 60}});
+  EXPECT_EQ(observation[1].dissimilarity, observation[0].dissimilarity);
+  EXPECT_NE(observation[2].dissimilarity, observation[0].dissimilarity) << "else the test asks nothing";
+  EXPECT_LT((observation[1].found - observation[0].found - Vector2f(0.75f, 0.5f)).norm(), 1e-5f);
+  EXPECT_NEAR(observation[1].depth_m - observation[0].depth_m, 0.001, 1e-6);
+  EXPECT_EQ(matches_.past_observations.point[1], matches_.current.point[1]);
 }
 
 TEST_F(PastReprojectionTest, WhatMovedIsFoundBesideItsPlaceOrLooksDifferent) {
