@@ -116,8 +116,6 @@ template <class Distortion>
 bool has_no_lens(const Distortion&) noexcept {
   return std::is_same_v<Distortion, NoDistortion>;
 }
-inline bool has_no_lens(const AnyDistortion& lens) noexcept {
-  return std::holds_alternative<NoDistortion>(lens.model);
-}
+inline bool has_no_lens(const AnyDistortion& lens) noexcept { return std::holds_alternative<NoDistortion>(lens.model); }
 
 }  // namespace stillpoint

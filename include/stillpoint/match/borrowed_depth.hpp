@@ -24,7 +24,7 @@ double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& 
                         const Noise& noise, const DepthTolerance& same_surface) {
   constexpr int kRounds = 3;
   constexpr double kNearest_m = 0.1;
-  constexpr double kAgreed = 0.1;                                     // of what depths differ by on one surface
+  constexpr double kAgreed = 0.1;  // of what depths differ by on one surface
   const Eigen::Matrix4d& motion = reference_from_current.matrix();
   const Vector3d along(motion(0, 2), motion(1, 2), motion(2, 2));  // this camera's axis, in the older one
   double depth_m = start_m;

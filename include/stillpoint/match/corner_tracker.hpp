@@ -101,10 +101,10 @@ class CornerTracker {
   // Least eigenvalue of a corner, squared gray levels over 5 × 5 pixels of the half-sized image.
   static constexpr float kWeakestCorner = 600.0f;
   static constexpr std::size_t kPyramidLevels = 4;  // with a reach of 3 px on each: 45 px between two frames
-  static constexpr float kTooVague = 0.5f;   // on a coarse level a fit this bad does not move the start of the next
+  static constexpr float kTooVague = 0.5f;  // on a coarse level a fit this bad does not move the start of the next
   static constexpr float kCoarsePrecision_px = 0.2f;  // of a level that only says where the next one begins
   static constexpr int kFewestPixels = 25;            // of a patch's 64 that must lie on the corner's surface
-  static constexpr float kBorder_px = 8.0f;  // nearer to the border than this a match is `near_edge`
+  static constexpr float kBorder_px = 8.0f;           // nearer to the border than this a match is `near_edge`
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
   static constexpr float kOtherStart_px = 8.0f;   // a nearer second start finds what the first one finds

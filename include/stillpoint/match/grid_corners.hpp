@@ -73,7 +73,8 @@ inline void keep_strongest(const float* half_trace, const float* root, float row
                            float* row_of) noexcept {
   const FloatLanes here{row, row, row, row};
   for (std::size_t u = 0; u < columns; u += 4) {
-    const FloatLanes strength = float_lanes(half_trace + u) - float_lanes(root + u), before = float_lanes(strongest + u);
+    const FloatLanes strength = float_lanes(half_trace + u) - float_lanes(root + u),
+                     before = float_lanes(strongest + u);
     const FloatLanes kept = strength > before ? strength : before;
     const FloatLanes kept_row = strength > before ? here : float_lanes(row_of + u);
     std::memcpy(strongest + u, &kept, sizeof kept);

@@ -254,8 +254,8 @@ inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vect
       bx += without_gain * patch.centred(along_x, patch.sum_x, total);
       by += without_gain * patch.centred(along_y, patch.sum_y, total);
     }
-    Vector2f step = search.warp * Vector2f(to_step * (patch.hyy * bx - patch.hxy * by),
-                                           to_step * (patch.hxx * by - patch.hxy * bx));
+    Vector2f step = search.warp *
+                    Vector2f(to_step * (patch.hyy * bx - patch.hxy * by), to_step * (patch.hxx * by - patch.hxy * bx));
     step = {std::clamp(step.x(), -1.0f, 1.0f), std::clamp(step.y(), -1.0f, 1.0f)};
     const Vector2f before = offset;
     offset += step;

@@ -53,9 +53,9 @@ inline std::int32_t product(const PatchPixels& a, const PatchPixels& b) noexcept
 /// Where a place lies between four pixels, in fixed point. Interpolates along lines first, then between two lines, so
 /// that both steps fit 16 bits.
 struct BilinearWeights {
-  static constexpr int kLineBits = 7;                     ///< of a gray value between two pixels of a line: 255 · 2⁷ < 2¹⁵
-  static constexpr int kFractionBits = 4;                 ///< of a sampled gray value …
-  static constexpr int kOne = 1 << kFractionBits;         ///< … so that this is one gray level
+  static constexpr int kLineBits = 7;      ///< of a gray value between two pixels of a line: 255 · 2⁷ < 2¹⁵
+  static constexpr int kFractionBits = 4;  ///< of a sampled gray value …
+  static constexpr int kOne = 1 << kFractionBits;           ///< … so that this is one gray level
   static constexpr int kShift = kLineBits - kFractionBits;  ///< from the one to the other
   /// For rounding: ½, and 1 for the half that `between_lines` drops on average, twice.
   static constexpr std::int16_t kHalf = (1 << (kShift - 1)) + 1;

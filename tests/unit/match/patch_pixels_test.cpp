@@ -24,8 +24,8 @@ TEST(BilinearWeights, AreSharesOfFourPixels) {
   EXPECT_EQ(sample_pixel(upper, lower, weights), 440);
 }
 
-// The place along the line is off by half of 2⁻⁷ at the most, that between the lines by 2⁻¹⁵, the upper half of a product
-// by 1 of 2⁷ to either side, and the result is rounded to sixteenths.
+// The place along the line is off by half of 2⁻⁷ at the most, that between the lines by 2⁻¹⁵, the upper half of a
+// product by 1 of 2⁷ to either side, and the result is rounded to sixteenths.
 TEST(BilinearWeights, SampleWhatFloatsDo) {
   Random random(1);
   constexpr double kTolerance = 255.0 / 256 + 255.0 / 32768 + 1.0 / 128 + 1.0 / 32;
