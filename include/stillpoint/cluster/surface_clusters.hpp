@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/cluster/depthless_features.hpp"
 #include "stillpoint/cluster/k_means.hpp"
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/observations.hpp"
@@ -54,29 +55,17 @@ class SurfaceClusters {
     const Workspace::Scope scope(workspace);
     const span<float> common = workspace.take<float>(matches.size(), kNone);
     share_in_clusters(matches, scores, regions, labels, common, workspace);
-    const float neighbour_px = matches.pixel_scale * kNeighbour_px;
-    const PixelGrid grid(matches.current.pixel, 0.5f * neighbour_px, workspace,
-                         [&](std::size_t i) { return !std::isnan(common[i]); });
     const auto level = static_cast<float>(evidence.threshold.level);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (std::isnan(common[i])) continue;
+      common[i] -= level;
+      if (matches.current.has_depth(i)) label_by_cluster(scores[i], common[i], level, labels[i]);
+    }
+    label_depthless(matches, scores, common, level, labels, workspace);
     const bool any_dynamic = std::any_of(regions.detections.begin(), regions.detections.end(),
                                          [](const Detection& found) { return found.mobility == Mobility::dynamic; });
-    for (std::size_t i = 0; i < matches.size(); ++i) {
-      Label& label = labels[i];
-      if (!std::isnan(common[i])) {
-        const float own = scores[i].scored() ? held(scores[i]) : common[i];
-        label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common[i], kMostShared) - level;
-        label.reason = scores[i].scored() ? Reason::consistent : Reason::neighbours;
-        if (!matches.current.has_depth(i) && i < matches.past_observations.point.size() &&
-            matches.past_observations.is_guess(i))
-          label.log_odds += kDepthlessShift;
-      } else {
-        label.log_odds = without_depth(scores[i], matches.current.pixel[i], neighbour_px, grid, common, level);
-        label.reason = scores[i].scored()                        ? Reason::consistent
-                       : matches.state[i] == MatchState::outside ? Reason::outside_image
-                                                                 : Reason::no_depth;
-      }
-      label.log_odds += shift(regions.of_feature[i], any_dynamic, matches.current.has_depth(i));
-    }
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      labels[i].log_odds += shift(regions.of_feature[i], any_dynamic, matches.current.has_depth(i));
   }
 
  private:
@@ -85,10 +74,11 @@ class SurfaceClusters {
   static constexpr int kMaxIterations = 3;          // of K-means: a fourth and a fifth changed nothing
   static constexpr double kExtent_px = 40.0;        // what one unit of the clusters' lateral coordinates is
   static constexpr float kSplitExplained = 0.8f;    // share of the variance that two populations must explain
-  static constexpr float kNeighbour_px = 25.0f;     // how far a feature without evidence looks for others
-  static constexpr float kNeighbourShare = 0.7f;    // of their log-odds it takes over
-  static constexpr float kDepthlessOwn = 0.4f;  // share of its own score in the log-odds of a feature without a depth
-  static constexpr float kDepthlessShift = -1.5f;  // nats; depth is lost at glass, metal and rims, seldom on movers
+  static constexpr float kNeighbour_px = 25.0f;     // how far a feature without a depth looks for others
+  static constexpr float kNeighbourShare = 0.7f;    // of their evidence it takes over where it has none …
+  // … and what its own and theirs count where it was compared at a supposed depth: rounded coefficients of a logistic
+  // regression over such features of Bonn's crowd and of the kitchen with holes.
+  static constexpr float kDepthlessOwn = 0.4f, kDepthlessNeighbours = 0.35f;
   static constexpr float kOutsideShift = -0.6f;    // nats; in no region when a detector has found something dynamic
   static constexpr float kMovableShift = 0.2f;     // nats
   static constexpr float kFixedShift = -0.3f;      // nats
@@ -107,6 +97,52 @@ class SurfaceClusters {
   }
 
   float held(const FeatureScore& score) const noexcept { return std::clamp(score.value, kLowest, kHighest); }
+
+  /// The feature's own evidence and its cluster's.
+  /// @param common  score of its cluster above the threshold, nats
+  void label_by_cluster(const FeatureScore& score, float common, float level, Label& label) const noexcept {
+    const float own = score.scored() ? held(score) - level : common;
+    label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common, kMostShared - level);
+    label.reason = score.scored() ? Reason::consistent : Reason::neighbours;
+  }
+
+  /// What has no depth counts by the surface that older frames confirm, else by its own look and what is around it. How
+  /// often depth is missing on what moves shifts the odds of those that were compared; of a corner that was not, the
+  /// motion is to be suspicious of what is around it.
+  void label_depthless(const Matches& matches, span<const FeatureScore> scores, span<const float> common, float level,
+                       span<Label> labels, Workspace& workspace) const {
+    const auto has_depth = [&](std::size_t i) { return matches.current.has_depth(i); };
+    const float reach_px = matches.pixel_scale * kNeighbour_px;
+    const PixelGrid grid(matches.current.pixel, 0.5f * reach_px, workspace,
+                         [&](std::size_t i) { return has_depth(i) && !std::isnan(common[i]); });
+    const span<Surroundings> around = workspace.take<Surroundings>(matches.size());
+    DepthlessPrior prior;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (has_depth(i)) {
+        if (!std::isnan(common[i])) prior.add_with_depth(labels[i].log_odds > 0);
+      } else if (matches.state[i] != MatchState::outside) {
+        around[i] = Surroundings::of(matches.current.pixel[i], reach_px, grid, common, labels);
+        prior.add_without_depth(around[i]);
+      }
+    }
+    const float missing_depth = prior.log_ratio();
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (has_depth(i) && !std::isnan(common[i])) continue;
+      const bool is_known = !std::isnan(common[i]) && !matches.past_observations.is_guess(i);
+      const float others = around[i].any ? around[i].evidence : kAlone;
+      Label& label = labels[i];
+      if (is_known) {
+        label_by_cluster(scores[i], common[i], level, label);
+        label.log_odds += missing_depth;
+      } else if (scores[i].scored()) {
+        label.log_odds = kDepthlessOwn * (held(scores[i]) - level) + kDepthlessNeighbours * others + missing_depth;
+        label.reason = Reason::consistent;
+      } else {
+        label.log_odds = around[i].any ? kNeighbourShare * others : kAlone;
+        label.reason = matches.state[i] == MatchState::outside ? Reason::outside_image : Reason::no_depth;
+      }
+    }
+  }
 
   /// Of the surface that a feature lies on: measured, borrowed from an older frame, or that of what is beside it; 0
   /// none.
@@ -224,27 +260,6 @@ class SurfaceClusters {
       best = {0.5f * (sorted[k - 1] + sorted[k]), low, high, mean};
     }
     return best;
-  }
-
-  /// Its own score, where a place was supposed for it, and its neighbours'.
-  float without_depth(const FeatureScore& score, const Vector2f& pixel, float reach_px, const PixelGrid& grid,
-                      span<const float> common, float level) const {
-    const float others = from_neighbours(pixel, reach_px, grid, common, level);
-    const float own_share = score.scored() ? kDepthlessOwn : 0.0f;
-    const float own = score.scored() ? held(score) - level : 0.0f;
-    return own_share * own + (1.0f - own_share) * others;
-  }
-
-  float from_neighbours(const Vector2f& pixel, float reach_px, const PixelGrid& grid, span<const float> common,
-                        float level) const {
-    const float reach_sq = reach_px * reach_px;
-    float weight = 0, sum = 0;
-    grid.within(pixel, reach_px, [&](std::size_t j, float squared) {
-      const float near = 1 - squared / reach_sq;
-      weight += near * near;
-      sum += near * near * (common[j] - level);
-    });
-    return weight > 0 ? kNeighbourShare * sum / weight : kAlone;
   }
 };
 

@@ -90,7 +90,9 @@ class PastReprojection {
   static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
   static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
-  static constexpr float kUnlike = 1.0f;          // counts a frame in which a patch can't be compared
+  /// Dissimilarity of a patch in a frame that can't be compared, as where something nearer hides the place: there a
+  /// feature scores 0 nats (ReprojectionScore: 2.5 nats expected, 0.12 each). What contradicts is above, what fits below.
+  static constexpr float kNoEvidence = 0.3f;
   static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
   static constexpr float kSearchPrecision_px = 0.2f;
 
@@ -119,7 +121,8 @@ class PastReprojection {
   }
 
   /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
-  /// surfaces beside it. Taken is where it looks most as if it stood.
+  /// surfaces beside it. Taken is where it looks most as if it stood. Where it looks changed there, too, no frame has
+  /// confirmed the depth: it stays a guess. Where no frame can be compared, nothing is supposed.
   template <class Camera, class Noise>
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Matches& matches) const {
@@ -154,8 +157,11 @@ class PastReprojection {
       if (clearly_stands(i, frames)) return;
       for (std::size_t f = 0; f < frames.size(); ++f) least_unlike[f] = frames[f].of_feature[i];
     }
-    if (best == count) return;
-    suppose(i, candidates[best], spread_of(best), camera, matches);
+    const auto is_compared = [](const Observation& observation) { return std::isfinite(observation.dissimilarity); };
+    if (best == count || std::none_of(least_unlike.begin(), least_unlike.begin() + frames.size(), is_compared))
+      return forget(i, matches);
+    const bool is_confirmed = least < kNoEvidence * static_cast<float>(frames.size());
+    suppose(i, candidates[best], is_confirmed ? spread_of(best) : kSupposedSpread / candidates[best], camera, matches);
     for (std::size_t f = 0; f < frames.size(); ++f) frames[f].of_feature[i] = least_unlike[f];
   }
 
@@ -167,9 +173,16 @@ class PastReprojection {
     matches.past_observations.inverse_depth_sigma[i] = inverse_depth_sigma;
   }
 
+  /// The feature lies on no known surface.
+  static void forget(std::size_t i, Matches& matches) {
+    matches.past_observations.point[i].setConstant(std::numeric_limits<double>::quiet_NaN());
+    matches.past_observations.inverse_depth_sigma[i] = std::numeric_limits<double>::infinity();
+    for (OlderFrame& older : matches.past_observations.frames()) older.of_feature[i] = Observation{};
+  }
+
   /// Looks for a feature in every older frame.
   /// @param most  of the sum that is returned: where it can't be less any more, looking ends
-  /// @return how dissimilar it is, summed over the frames; one where it can't be compared counts as unlike
+  /// @return how dissimilar it is, summed over the frames; one where it can't be compared counts as no evidence
   template <class Camera, class Noise>
   float look(std::size_t i, double depth_m, double inverse_depth_sigma, float most, const FrameHistory& history,
              const FrameView& current, const Camera& camera, const Noise& noise, Matches& matches) const {
@@ -187,7 +200,7 @@ class PastReprojection {
       observation = look_in(history.back(older.age).view(), older.reference_from_current, point,
                             inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
-      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kUnlike;
+      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kNoEvidence;
       return dissimilarity < most;
     };
     const span<OlderFrame> frames = past_observations.frames();
@@ -195,7 +208,7 @@ class PastReprojection {
     dissimilarity = 0;  // with what was not looked at
     for (const OlderFrame& older : frames) {
       const Observation& observation = older.of_feature[i];
-      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kUnlike;
+      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kNoEvidence;
     }
     return dissimilarity;
   }
