@@ -62,14 +62,18 @@ class ObjectIdentity {
     return best;
   }
 
-  /// May it be a limb that swings faster than the body it hangs on? Nobody knows until it has been seen for a while.
+  /// May it be a limb that swings faster than the body it hangs on? Nobody knows until it has been seen for a while. A
+  /// foot may be all that is seen of a leg, farther from the body.
   static bool may_be_limb(const std::vector<TrackedObject>& objects, std::size_t candidate, double timestamp_s) {
-    constexpr double kStride_s = 0.5, kMoves_m_s = 0.1;
+    constexpr double kStride_s = 0.5, kMoves_m_s = 0.1, kFoot_m = 1.0;
     const TrackedObject& part = objects[candidate];
     if (timestamp_s - part.mover.first_seen_s > kStride_s) return false;
     return std::any_of(objects.begin(), objects.end(), [&](const TrackedObject& object) {
-      return &object != &part && object.is_confirmed && object.is_seen && object.mean_speed() > kMoves_m_s &&
-             is_small(part, object) && gap_m(part, object) < kLimb_m;
+      if (&object == &part || !object.is_confirmed || !object.is_seen || !(object.mean_speed() > kMoves_m_s) ||
+          !is_small(part, object))
+        return false;
+      const double apart_m = gap_m(part, object);
+      return apart_m < kLimb_m || (apart_m < kFoot_m && swing(part, object) < 1.0);
     });
   }
 
@@ -106,6 +110,16 @@ class ObjectIdentity {
     return 0.3 + 0.8 * std::max(object.mean_speed(), object.linear.velocity().norm());
   }
 
+  /// How fast a part moves against a body, in units of what limbs do: they stand, or swing at up to two and a half
+  /// times the speed of the body, and its way.
+  static double swing(const TrackedObject& limb, const TrackedObject& body) {
+    const double speed = body.mean_speed(), forward_m_s = 0.3 + 1.5 * speed, other_m_s = 0.3 + 0.8 * speed;
+    const Vector3d apart = limb.mean_velocity - body.mean_velocity;
+    const double along = speed > 0 ? apart.dot(body.mean_velocity) / speed : 0.0;
+    const double across = std::sqrt(std::max(0.0, apart.squaredNorm() - along * along));
+    return std::hypot(along / (along > 0 ? forward_m_s : other_m_s), across / other_m_s);
+  }
+
   /// How far the boxes around two objects, as large as they are remembered, are from each other.
   static double gap_m(const TrackedObject& a, const TrackedObject& b) {
     const Vector3d apart = (a.mover.centroid - b.mover.centroid).cwiseAbs() - 0.5 * (a.size_m + b.size_m);
@@ -116,7 +130,7 @@ class ObjectIdentity {
   static double misfit_of_limb(const TrackedObject& part, const TrackedObject& object) {
     constexpr double kReach_m = 0.3;
     const TrackedObject& larger = object.members >= part.members ? object : part;
-    const double motion = (part.mean_velocity - object.mean_velocity).norm() / limbs_m_s(larger);
+    const double motion = swing(&larger == &object ? part : object, larger);
     const double reach_m = is_small(part, object) ? kLimb_m : kReach_m;
     if (!(motion < 1.0) || !(gap_m(part, object) < reach_m)) return std::numeric_limits<double>::infinity();
     return motion * motion;

@@ -89,27 +89,41 @@ class ObjectMotionEstimator {
   }
 
   /// The rigid motion near `start`; nothing where the pairs do not determine one.
-  static std::optional<ObjectMotion> rigid(span<const WhitenedPair> pairs, const Pose& start) {
+  /// @param pixel_noise  standard deviation of the pixels over what the pairs say
+  static std::optional<ObjectMotion> rigid(span<const WhitenedPair> pairs, const Pose& start,
+                                           double pixel_noise = 1.0) {
     if (pairs.size() < kFewestForRotation) return std::nullopt;
     ObjectMotion motion;
     motion.count = pairs.size();
     motion.moved = start;
     for (int iteration = 0; iteration < kSteps; ++iteration) {
-      RigidNormalEquations equations(motion.moved);
-      for (const WhitenedPair& pair : pairs) equations.add(pair);
-      const std::optional<Pose> next = equations.step();
+      const std::optional<Pose> next = equations_at(pairs, motion.moved, pixel_noise).step();
       if (!next) return std::nullopt;
       motion.moved = *next;
     }
-    RigidNormalEquations equations(motion.moved);
-    for (const WhitenedPair& pair : pairs) equations.add(pair);
-    const std::optional<Matrix6d> covariance = equations.covariance();
+    const std::optional<Matrix6d> covariance = equations_at(pairs, motion.moved, pixel_noise).covariance();
     if (!covariance || !(covariance->topLeftCorner<3, 3>().trace() <= kMostRotationSigma * kMostRotationSigma))
       return std::nullopt;
     motion.covariance = *covariance;
     motion.has_rotation = true;
     motion.inlier_share = inlier_share(pairs, motion.moved);
     return motion;
+  }
+
+  /// Standard deviation of the pixels over what the pairs say, from the offsets that a motion leaves: at least 0.5, at
+  /// most 1. Limbs that swing leave more than the noise. So the median counts three times.
+  static double pixel_noise(span<const WhitenedPair> pairs, const Pose& moved, Workspace& workspace) {
+    constexpr double kLeast = 0.5, kPerMedian = 3.0 * 1.4826;  // of a normal distribution
+    if (pairs.empty()) return 1.0;
+    const Workspace::Scope scope(workspace);
+    const span<double> offsets = workspace.take<double>(2 * pairs.size());
+    std::size_t count = 0;
+    for (const WhitenedPair& pair : pairs) {
+      const Vector3d offset = pair.current - moved * pair.reference;
+      offsets[count++] = std::abs(pair.per_x * (offset.x() - pair.u * offset.z()));
+      offsets[count++] = std::abs(pair.per_y * (offset.y() - pair.v * offset.z()));
+    }
+    return std::clamp(kPerMedian * median_in_place(offsets), kLeast, 1.0);
   }
 
   /// How fast the parts of an object move against each other: mean square of what is left of their velocity across the
@@ -151,6 +165,16 @@ class ObjectMotionEstimator {
 
  private:
   static constexpr int kSteps = 4;
+
+  static RigidNormalEquations equations_at(span<const WhitenedPair> pairs, const Pose& moved, double pixel_noise) {
+    RigidNormalEquations equations(moved);
+    for (WhitenedPair pair : pairs) {
+      pair.per_x /= pixel_noise;
+      pair.per_y /= pixel_noise;
+      equations.add(pair);
+    }
+    return equations;
+  }
 
   /// Which of `cells` equal parts of the range from `low` to `high` a value is in.
   static std::size_t cell(double value, double low, double high, std::size_t cells) {

@@ -90,8 +90,9 @@ class ObjectUpdate {
                       double elapsed_s, Workspace& workspace) {
     const std::optional<ObjectMotion> shifted = ObjectMotionEstimator::translation(pairs, workspace);
     if (!shifted) return;  // as predicted
-    const std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
+    std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
     const double inlier_share = turned ? turned->inlier_share : 0.0;
+    if (turned) weigh_pixels(*turned, pairs, workspace);
     object.rigid_share += share_of(elapsed_s, kMean_s) * (inlier_share - object.rigid_share);
     object.fit_share += mean_share(object, elapsed_s) * (inlier_share - object.fit_share);
     if (turned) {
@@ -115,6 +116,15 @@ class ObjectUpdate {
     object.long_velocity += std::max(share_of(elapsed_s, kLong_s), of_few) * (velocity - object.long_velocity);
     object.path += step;
     object.path_covariance += covariance;
+  }
+
+  /// Where pixels are better than `pixel_sigma` says, depth has too much of a say: noise of depth turns a small object
+  /// by degrees within a second. What is said of its certainty stays, so that a turn is believed as late as before.
+  static void weigh_pixels(ObjectMotion& turned, span<const WhitenedPair> pairs, Workspace& workspace) {
+    const double noise = ObjectMotionEstimator::pixel_noise(pairs, turned.moved, workspace);
+    if (!(noise < 1.0)) return;
+    const std::optional<ObjectMotion> better = ObjectMotionEstimator::rigid(pairs, turned.moved, noise);
+    if (better) turned.moved = better->moved;
   }
 
   /// A turn that noise explains is taken for none: integrated over a second, it would be degrees. Features are expected

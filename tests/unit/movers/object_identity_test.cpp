@@ -86,6 +86,32 @@ TEST(ObjectIdentity, ALimbIsOfTheBodyThatItMovesWith) {
   EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone);
 }
 
+// The most is 0.3 m/s + 1.5 · 0.8 m/s forward of the body's velocity, 0.3 m/s + 0.8 · 0.8 m/s in any other direction.
+TEST(ObjectIdentity, ALegSwingsForwardFasterThanInAnyOtherDirection) {
+  std::vector<TrackedObject> objects = {walker(1, {0, 0, 2}), strip({0.3, 1.2, 2}, {0.8 + 1.45, 0, 0})};
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), 0);
+  objects[1].mean_velocity.x() = 0.8 + 1.55;
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone);
+  for (const Vector3d& direction : {Vector3d(-1, 0, 0), Vector3d(0, 0, 1)}) {
+    objects[1].mean_velocity = objects[0].mean_velocity + 0.9 * direction;
+    EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), 0);
+    objects[1].mean_velocity = objects[0].mean_velocity + 1.0 * direction;
+    EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone);
+  }
+}
+
+// Only the upper half of the body is seen: 0.8 m lie between it and the foot.
+TEST(ObjectIdentity, AFootFarBelowItsBodyWaitsForAStride) {
+  std::vector<TrackedObject> objects = {walker(1, {0, -0.5, 2}), strip({0.2, 0.85, 2}, {2.0, 0, 0})};
+  objects[0].size_m.y() = 0.8;
+  EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  EXPECT_EQ(ObjectIdentity::known(objects, 1, kNow_s), ObjectIdentity::kNone) << "too far to be sure";
+  objects[1].mean_velocity.x() = -2.0;  // somebody who comes the other way
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects[1] = strip({0.2, 1.2, 2}, {2.0, 0, 0});
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+}
+
 TEST(ObjectIdentity, WhatMayBeALimbWaitsForAStride) {
   std::vector<TrackedObject> objects = {walker(1, {0, 0, 2}), strip({0.3, 1.2, 2}, {2.5, 0, 0})};
   EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));

@@ -72,6 +72,59 @@ TEST(ObjectMotion, TranslationKnowsHowCertainItIs) {
   EXPECT_NEAR(motion->covariance(5, 5), along_sq, 1e-3 * along_sq);
 }
 
+/// Standard normal, nearly: twelve uniform numbers have variance 1.
+double normal(Random& random) {
+  double sum = 0;
+  for (int k = 0; k < 12; ++k) sum += random.uniform(-0.5, 0.5);
+  return sum;
+}
+
+/// The pairs of a turn of 0.01 rad as a camera sees them: noise of pixels, 5 mm of depth.
+std::vector<WhitenedPair> seen_turn(const Pose& turn, double pixel_noise_px, Random& random) {
+  std::vector<WhitenedPair> pairs;
+  const auto seen = [&](const Vector3d& point) {
+    const Vector2d pixel = kCamera.project(point) + pixel_noise_px * Vector2d(normal(random), normal(random));
+    return kCamera.back_project(pixel, point.z() + kDepthSigma_m * normal(random));
+  };
+  for (const WhitenedPair& exact : pairs_of({0, 0, 2}, turn, 100, random)) {
+    const Vector3d reference = seen(exact.reference), current = seen(exact.current);
+    pairs.emplace_back(reference, kDepthSigma_m, current, kDepthSigma_m, kPixelSigma_px, kCamera);
+  }
+  return pairs;
+}
+
+TEST(ObjectMotion, PixelNoiseIsWhatTheOffsetsShowAndNeverLessThanHalf) {
+  Random random(5);
+  Workspace workspace;
+  const Pose turn = turn_about({0, 0, 2}, 0.01);
+  EXPECT_DOUBLE_EQ(ObjectMotionEstimator::pixel_noise(seen_turn(turn, 0.5, random), turn, workspace), 1.0);
+  EXPECT_DOUBLE_EQ(ObjectMotionEstimator::pixel_noise(seen_turn(turn, 0.02, random), turn, workspace), 0.5);
+  const double between = ObjectMotionEstimator::pixel_noise(seen_turn(turn, 0.125, random), turn, workspace);
+  EXPECT_NEAR(between, 3.0 * 0.125 / 0.5, 0.15);  // of 200 offsets
+  // Half of the pairs belong to a limb that goes 1 cm farther: no noise of pixels.
+  std::vector<WhitenedPair> pairs = seen_turn(turn, 0.02, random);
+  for (const WhitenedPair& pair : seen_turn(shift(0.01, 0, 0) * turn, 0.02, random)) pairs.push_back(pair);
+  for (const WhitenedPair& pair : seen_turn(shift(0, 0.01, 0) * turn, 0.02, random)) pairs.push_back(pair);
+  EXPECT_DOUBLE_EQ(ObjectMotionEstimator::pixel_noise(pairs, shift(0.005, 0.005, 0) * turn, workspace), 1.0);
+  EXPECT_DOUBLE_EQ(ObjectMotionEstimator::pixel_noise({}, turn, workspace), 1.0);
+}
+
+// Pixels that are ten times as good as it was said: with their due weight the turn is known better.
+TEST(ObjectMotion, ATurnIsKnownBetterWithTheWeightThatPixelsDeserve) {
+  Random random(6);
+  const Pose turn = turn_about({0, 0, 2}, 0.01);
+  double as_said_sq = 0, weighed_sq = 0;
+  for (int k = 0; k < 50; ++k) {
+    const std::vector<WhitenedPair> pairs = seen_turn(turn, 0.05, random);
+    const std::optional<ObjectMotion> as_said = ObjectMotionEstimator::rigid(pairs, Pose::Identity()),
+                                      weighed = ObjectMotionEstimator::rigid(pairs, Pose::Identity(), 0.5);
+    ASSERT_TRUE(as_said && weighed);
+    as_said_sq += std::pow(rotation_angle(turn.linear().transpose() * as_said->moved.linear()), 2);
+    weighed_sq += std::pow(rotation_angle(turn.linear().transpose() * weighed->moved.linear()), 2);
+  }
+  EXPECT_LT(weighed_sq, 0.7 * as_said_sq);
+}
+
 constexpr double kElapsed_s = 1 / 30.0;
 
 // An upper half that goes 5 mm to the right and a lower one that goes 5 mm to the left: 0.15 m/s each. The 10 pairs of
