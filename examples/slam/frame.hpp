@@ -6,6 +6,7 @@
 
 #include <opencv2/core/matx.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -64,6 +65,10 @@ struct MeasurementNoise {
   stillpoint::KinectNoise depth_noise;
 
   double pixel(int octave) const { return pixel_sigma * octave_scale(octave); }
+  /// Of the offset between a feature and a point that so many features have placed: each of them is as wrong as it is.
+  double pixel_to_point(int octave, std::size_t observations) const {
+    return pixel(octave) * std::sqrt(1.0 + 1.0 / static_cast<double>(std::max<std::size_t>(observations, 1)));
+  }
   double depth_m(double metres) const { return depth_sigma_factor * depth_noise.sigma(metres); }
 };
 

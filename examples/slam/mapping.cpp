@@ -35,8 +35,7 @@ std::vector<KeyframeId> Mapping::neighbours(KeyframeId id, const Map& map) const
 
 /// What moves makes a new point wherever it has come to, and all of them together drag the pose along.
 bool Mapping::may_make_point(const Keyframe& keyframe, std::size_t feature) const {
-  const bool deviates = !keyframe.deviates.empty() && keyframe.deviates[feature] != 0;
-  return !deviates && keyframe.features.weights[feature] >= options.least_weight;
+  return keyframe.deviates.empty() || keyframe.deviates[feature] == 0;
 }
 
 void Mapping::add_points_by_depth(KeyframeId id, Map& map) const {
@@ -109,7 +108,8 @@ bool Mapping::fits(const MapPoint& point, const Keyframe& keyframe, int feature)
   const auto i = static_cast<std::size_t>(feature);
   const Vector3d p = keyframe.camera_from_world * point.p_world;
   if (!(p.z() > 0.1)) return false;
-  const double pixel_error = (camera_.project(p) - keyframe.pixel[i]).norm() / noise_.pixel(keyframe.octave(feature));
+  const double pixel_sigma = noise_.pixel_to_point(keyframe.octave(feature), point.observations.size());
+  const double pixel_error = (camera_.project(p) - keyframe.pixel[i]).norm() / pixel_sigma;
   const double depth_m = keyframe.depth_m[i];
   if (!(depth_m > 0)) return pixel_error * pixel_error < chi_squared_limit(false);
   const double of_point_m = (keyframe.camera_from_world.linear() * point.sigma_m()).z();

@@ -24,7 +24,6 @@ class Mapping {
   struct Options {
     std::size_t neighbours = 10;  ///< covisible keyframes with which a new one is compared
     int fewest_shared = 15;       ///< points by which they are covisible
-    double least_weight = 0.3;    ///< a feature that the filter half believes makes no point
     int farthest_bits = 50;       ///< of two descriptors of one point, without its place being expected
     double second_best = 0.7;
     double least_parallax_rad = 0.02;  ///< of two views that make a point

@@ -25,7 +25,7 @@ struct PointMatch {
 /// Finds points by their descriptors within a window.
 struct PointSearch {
   double window_px = 15.0;      ///< around where a point is expected, in the octave in which it is expected
-  int farthest_bits = 64;       ///< of 256 in which two descriptors of one point may differ
+  int farthest_bits = 100;      ///< of 256 in which two descriptors of one point may differ; motion blur takes many
   double second_best = 0.85;    ///< the best differs by less than this share of the second best of its octave
   double oblique_cosine = 0.5;  ///< seen more aslant than this from how it was seen so far, it looks different
 

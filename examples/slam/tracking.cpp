@@ -124,8 +124,9 @@ void Tracking::see(const Frame& frame, const Map& map, span<const PointMatch> ma
     const MapPoint& point = map.point(match.point);
     const auto i = static_cast<std::size_t>(match.feature);
     const double depth_m = frame.depth_m[i];
-    observations_.push_back({point.p_world, frame.pixel[i], noise.pixel(frame.octave(match.feature)), depth_m,
-                             noise.depth_m(depth_m), point.sigma_m(), frame.features.weights[i], i});
+    const double pixel_sigma = noise.pixel_to_point(frame.octave(match.feature), point.observations.size());
+    observations_.push_back({point.p_world, frame.pixel[i], pixel_sigma, depth_m, noise.depth_m(depth_m),
+                             point.sigma_m(), frame.features.weights[i], i});
   }
 }
 

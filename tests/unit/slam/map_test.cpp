@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "made_map.hpp"
 #include "slam/mapping.hpp"
 #include "slam/path.hpp"
+#include "slam/point_search.hpp"
 
 namespace slam_test {
 namespace {
@@ -112,6 +116,48 @@ TEST(Mapping, PointsSeenOnceAreOnTrial) {
   mapping.cull_points(3, map);
   EXPECT_FALSE(map.has_point(4));
   expect_consistent(map);
+}
+
+// A point that one feature has placed is as wrong as that feature: with the noise of both an offset of three pixel
+// sigmas is 4.5 in chi-squared, with that of one it is 9 and beyond the limit of 7.8.
+TEST(Mapping, APointSeenOnceIsAsWrongAsAFeature) {
+  const std::vector<Vector3d> points = made_points(60);
+  const slam::MeasurementNoise noise;
+  EXPECT_DOUBLE_EQ(noise.pixel_to_point(0, 1), std::sqrt(2.0) * noise.pixel(0));
+  EXPECT_NEAR(noise.pixel_to_point(2, 1000), noise.pixel(2), 1e-3 * noise.pixel(2));
+  slam::Map map = made_map(points, 1);
+  slam::Frame frame = made_frame(points, camera_at(0.05));
+  for (std::size_t i = 0; i < 20; ++i) frame.point[i] = static_cast<slam::PointId>(i);  // by which it is covisible
+  for (Vector2d& pixel : frame.pixel) pixel.x() += 3 * noise.pixel(0);
+  const slam::KeyframeId id = map.add(frame);
+  slam::Mapping(camera(), noise).connect(id, map);
+  int named = 0;
+  for (std::size_t i = 20; i < points.size(); ++i) named += map.keyframe(id).point[i] == static_cast<slam::PointId>(i);
+  EXPECT_GT(named, 35) << "two that fall together may hide each other";
+}
+
+// Blur changes 80 of 256 bits; two different corners differ in 128 on average.
+TEST(PointSearch, FindsCornersThatBlurHasChanged) {
+  const std::vector<Vector3d> points = made_points(60);
+  slam::Map map = made_map(points, 2);
+  slam::Frame blurred = made_frame(points, camera_at(0.05));
+  for (int row = 0; row < blurred.features.descriptors.rows; ++row)
+    for (int byte = 0; byte < 10; ++byte) blurred.features.descriptors.at<std::uint8_t>(row, byte) ^= 0xFF;
+  const std::vector<slam::KeyframeId> both = {0, 1};
+  std::vector<slam::PointMatch> matches;
+  slam::PointSearch{}(map, map.points_of(both), camera(), camera_at(0.05), blurred, matches);
+  EXPECT_GT(matches.size(), 50u) << "two that fall together may hide each other";
+  for (const slam::PointMatch& match : matches) EXPECT_EQ(match.point, match.feature);
+}
+
+// The filter suspects much that stands still: where objects leave little else, nothing but that can carry the map on.
+TEST(Mapping, WhatHasLittleWeightMakesPoints) {
+  slam::Map map;
+  slam::Frame frame = made_frame(made_points(10), camera_at(0));
+  frame.features.weights.assign(std::vector<float>(10, 0.2F));
+  frame.deviates = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  slam::Mapping(camera(), slam::MeasurementNoise{}).insert(frame, map);
+  EXPECT_EQ(map.point_count(), 9u) << "all but what deviates from the map";
 }
 
 // A new keyframe names no point, and has no depth: what it shows is known by where the points must be.
