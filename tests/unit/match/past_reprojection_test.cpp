@@ -204,6 +204,28 @@ TEST_F(PastReprojectionTest, AFeatureWithoutADepthLiesOnASurfaceBesideIt) {
   }
 }
 
+// A hole in a wall at 2 m, of which the older frame knows nothing. The look there confirms that the wall goes on, or not.
+TEST_F(PastReprojectionTest, ASupposedDepthThatLooksChangedIsAGuess) {
+  depth_.colRange(72, 79).setTo(0.0);
+  older_depth_ = wall(0.0);
+  look({75, 60});
+  EXPECT_FALSE(matches_.past_observations.is_guess(0)) << "one surface all around, and it looks the same";
+  older_gray_ = 255 - gray_;
+  EXPECT_GT(look({75, 60}).dissimilarity, 0.3f);
+  EXPECT_TRUE(matches_.past_observations.is_guess(0));
+}
+
+// The same hole, and somebody at 1.5 m stood before it. On him it looks changed; on the wall it was hidden: nobody knows.
+TEST_F(PastReprojectionTest, WhatWasHiddenLiesOnNoKnownSurface) {
+  depth_.colRange(72, 79).setTo(0.0);
+  older_depth_ = wall(1.5);
+  EXPECT_EQ(look({75, 60}).state, ObservationState::seen);
+  EXPECT_NEAR(matches_.past_observations.point[0].z(), 1.5, 1e-6) << "it looks as if it lay where the older depth is";
+  older_gray_ = 255 - gray_;
+  EXPECT_EQ(look({75, 60}).state, ObservationState::none);
+  EXPECT_TRUE(std::isnan(matches_.past_observations.point[0].z()));
+}
+
 TEST_F(PastReprojectionTest, WithoutAnOlderDepthThePatchIsComparedAllTheSame) {
   older_depth_ = wall(0.0);
   const Observation observation = look({80, 60});
