@@ -42,8 +42,8 @@ struct Surroundings {
 };
 
 /// How often is depth missing on what moves, compared with what stands? A sensor that loses depth at glass, metal and
-/// in the shadow of its projector loses it on static surfaces; one that loses it at hair and dark cloth, or anywhere, on
-/// people as well. Counted in every frame: features without depth whose surroundings are dynamic, or static, against
+/// in the shadow of its projector loses it on static surfaces; one that loses it at hair and dark cloth, or anywhere,
+/// on people as well. Counted in every frame: features without depth whose surroundings are dynamic, or static, against
 /// those with depth.
 class DepthlessPrior {
  public:
@@ -69,8 +69,9 @@ class DepthlessPrior {
  private:
   static constexpr float kUsual = -1.5f;          // where nothing moves that could be counted, nats
   static constexpr float kUsualFeatures = 20.0f;  // as many counted features weigh as much as that
-  // Background beside a mover is surrounded by its features, too, so that the counted ratio is too near to 1. Of 1, 1.5,
-  // 2 and 3 this one has the fewest errors over recordings with depth lost on movers and without (docs/design/sweeps.md).
+  // Background beside a mover is surrounded by its features, too, so that the counted ratio is too near to 1. Of
+  // 1, 1.5, 2 and 3 this one has the fewest errors over recordings with depth lost on movers and without
+  // (docs/design/sweeps.md).
   static constexpr float kExcess = 1.5f;
   static constexpr float kLeast = -4.0f;  // nats: e^-4 of the static background's
 

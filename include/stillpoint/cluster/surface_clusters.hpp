@@ -79,9 +79,9 @@ class SurfaceClusters {
   // … and what its own and theirs count where it was compared at a supposed depth: rounded coefficients of a logistic
   // regression over such features of Bonn's crowd and of the kitchen with holes.
   static constexpr float kDepthlessOwn = 0.4f, kDepthlessNeighbours = 0.35f;
-  static constexpr float kOutsideShift = -0.6f;    // nats; in no region when a detector has found something dynamic
-  static constexpr float kMovableShift = 0.2f;     // nats
-  static constexpr float kFixedShift = -0.3f;      // nats
+  static constexpr float kOutsideShift = -0.6f;  // nats; in no region when a detector has found something dynamic
+  static constexpr float kMovableShift = 0.2f;   // nats
+  static constexpr float kFixedShift = -0.3f;    // nats
   static constexpr std::uint64_t kSeed = Random::kDefaultSeed;
   static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 

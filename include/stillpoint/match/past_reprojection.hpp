@@ -91,9 +91,10 @@ class PastReprojection {
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
   static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
   /// Dissimilarity of a patch in a frame that can't be compared, as where something nearer hides the place: there a
-  /// feature scores 0 nats (ReprojectionScore: 2.5 nats expected, 0.12 each). What contradicts is above, what fits below.
+  /// feature scores 0 nats (ReprojectionScore: 2.5 nats expected, 0.12 each). What contradicts is above, what fits
+  /// below.
   static constexpr float kNoEvidence = 0.3f;
-  static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
+  static constexpr int kSearchIterations = 3;  // a static point is not three pixels away: more find look-alikes
   static constexpr float kSearchPrecision_px = 0.2f;
 
   static void order_by_place(Matches& matches, Workspace& workspace) {

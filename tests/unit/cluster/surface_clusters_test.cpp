@@ -197,9 +197,9 @@ TEST_F(SurfaceClustersTest, AFeatureWithoutAnyDepthAnswersForItselfToo) {
   EXPECT_EQ(labels_[7].reason, Reason::consistent);
 }
 
-// A depth that an older frame measured makes a feature a member of its surface's cluster: scores 0, 0, 1.5 have the mean
-// 0.5, 0.4 · 1.5 + 0.6 · 0.5 − 1 = −0.1. A guess between two surfaces asks what is around it: 0.4 · (1.5 − 1) + 0.35 ·
-// (0.5 − 1) = 0.025. Both are 1.5 less, as depth is seldom missing on what moves.
+// A depth that an older frame measured makes a feature a member of its surface's cluster: scores 0, 0, 1.5 have the
+// mean 0.5, 0.4 · 1.5 + 0.6 · 0.5 − 1 = −0.1. A guess between two surfaces asks what is around it: 0.4 · (1.5 − 1) +
+// 0.35 · (0.5 − 1) = 0.025. Both are 1.5 less, as depth is seldom missing on what moves.
 TEST_F(SurfaceClustersTest, AFeatureWithABorrowedDepthIsOneOfItsSurface) {
   for (int i = 0; i < 2; ++i) add({100, 100}, 2.0, 0.0f);
   add({100, 100}, 0.0, 1.5f);
@@ -213,8 +213,8 @@ TEST_F(SurfaceClustersTest, AFeatureWithABorrowedDepthIsOneOfItsSurface) {
   }
 }
 
-// The same feature beside 60 others that move, half of them without depth, as in depth images with holes: nobody is less
-// suspect for a depth that is missing everywhere.
+// The same feature beside 60 others that move, half of them without depth, as in depth images with holes: nobody is
+// less suspect for a depth that is missing everywhere.
 TEST_F(SurfaceClustersTest, MissingDepthSaysNothingWhereMoversMissItToo) {
   for (int i = 0; i < 30; ++i) add({100, 100}, 2.0, 8.0f);
   for (int i = 0; i < 30; ++i) add({100, 100}, 0.0, kNaN);

@@ -204,7 +204,8 @@ TEST_F(PastReprojectionTest, AFeatureWithoutADepthLiesOnASurfaceBesideIt) {
   }
 }
 
-// A hole in a wall at 2 m, of which the older frame knows nothing. The look there confirms that the wall goes on, or not.
+// A hole in a wall at 2 m, of which the older frame knows nothing. The look there confirms that the wall goes on, or
+// not.
 TEST_F(PastReprojectionTest, ASupposedDepthThatLooksChangedIsAGuess) {
   depth_.colRange(72, 79).setTo(0.0);
   older_depth_ = wall(0.0);
@@ -215,7 +216,8 @@ TEST_F(PastReprojectionTest, ASupposedDepthThatLooksChangedIsAGuess) {
   EXPECT_TRUE(matches_.past_observations.is_guess(0));
 }
 
-// The same hole, and somebody at 1.5 m stood before it. On him it looks changed; on the wall it was hidden: nobody knows.
+// The same hole, and somebody at 1.5 m stood before it. On him it looks changed; on the wall it was hidden: nobody
+// knows.
 TEST_F(PastReprojectionTest, WhatWasHiddenLiesOnNoKnownSurface) {
   depth_.colRange(72, 79).setTo(0.0);
   older_depth_ = wall(1.5);
