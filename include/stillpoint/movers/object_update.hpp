@@ -90,9 +90,8 @@ class ObjectUpdate {
                       double elapsed_s, Workspace& workspace) {
     const std::optional<ObjectMotion> shifted = ObjectMotionEstimator::translation(pairs, workspace);
     if (!shifted) return;  // as predicted
-    std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
+    const std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
     const double inlier_share = turned ? turned->inlier_share : 0.0;
-    if (turned) weigh_pixels(*turned, pairs, workspace);
     object.rigid_share += share_of(elapsed_s, kMean_s) * (inlier_share - object.rigid_share);
     object.fit_share += mean_share(object, elapsed_s) * (inlier_share - object.fit_share);
     if (turned) {
@@ -105,7 +104,8 @@ class ObjectUpdate {
     const Pose& moved = object.surely_turns ? turned->moved : shifted->moved;
     Mover& mover = object.mover;
     mover.has_rotation = is_rigid;
-    mover.current_from_reference = orthonormalized((object.turns ? turned->moved : shifted->moved) * camera_motion);
+    const Pose reported = object.turns ? with_pixels_weighed(turned->moved, pairs, workspace) : shifted->moved;
+    mover.current_from_reference = orthonormalized(reported * camera_motion);
     mover.covariance = kCorrelation * (is_rigid ? turned->covariance : shifted->covariance);
 
     const Vector3d step = mover.centroid - inverted(moved) * mover.centroid, velocity = step / elapsed_s;
@@ -118,13 +118,14 @@ class ObjectUpdate {
     object.path_covariance += covariance;
   }
 
-  /// Where pixels are better than `pixel_sigma` says, depth has too much of a say: noise of depth turns a small object
-  /// by degrees within a second. What is said of its certainty stays, so that a turn is believed as late as before.
-  static void weigh_pixels(ObjectMotion& turned, span<const WhitenedPair> pairs, Workspace& workspace) {
-    const double noise = ObjectMotionEstimator::pixel_noise(pairs, turned.moved, workspace);
-    if (!(noise < 1.0)) return;
-    const std::optional<ObjectMotion> better = ObjectMotionEstimator::rigid(pairs, turned.moved, noise);
-    if (better) turned.moved = better->moved;
+  /// Where pixels are better than `pixel_sigma` says, depth has too much of a say: its noise turns a small object by
+  /// degrees within a second. For the pose that is reported: associations and the test for a turn are as cautious as
+  /// `pixel_sigma` is.
+  static Pose with_pixels_weighed(const Pose& moved, span<const WhitenedPair> pairs, Workspace& workspace) {
+    const double noise = ObjectMotionEstimator::pixel_noise(pairs, moved, workspace);
+    if (!(noise < 1.0)) return moved;
+    const std::optional<ObjectMotion> better = ObjectMotionEstimator::rigid(pairs, moved, noise);
+    return better ? better->moved : moved;
   }
 
   /// A turn that noise explains is taken for none: integrated over a second, it would be degrees. Features are expected
