@@ -106,9 +106,9 @@ class SurfaceClusters {
     label.reason = score.scored() ? Reason::consistent : Reason::neighbours;
   }
 
-  /// What has no depth counts by the surface that older frames confirm, else by its own look and what is around it. How
-  /// often depth is missing on what moves shifts the odds of those that were compared; of a corner that was not, the
-  /// motion is to be suspicious of what is around it.
+  /// A feature without depth is judged by its cluster where older frames confirm its surface, else by its own score and
+  /// by the features around it. How often depth is missing on dynamic features shifts the odds. Features that were not
+  /// compared are not shifted: the matcher's corners are such, and one on a mover must become suspect before it moves.
   void label_depthless(const Matches& matches, span<const FeatureScore> scores, span<const float> common, float level,
                        span<Label> labels, Workspace& workspace) const {
     const auto has_depth = [&](std::size_t i) { return matches.current.has_depth(i); };
