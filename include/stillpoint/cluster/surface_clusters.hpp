@@ -78,7 +78,7 @@ class SurfaceClusters {
   static constexpr float kNeighbourShare = 0.7f;    // of their evidence it takes over where it has none …
   // … and what its own and theirs count where it was compared at a supposed depth: rounded coefficients of a logistic
   // regression over such features of Bonn's crowd and of the kitchen with holes.
-  static constexpr float kDepthlessOwn = 0.4f, kDepthlessNeighbours = 0.5f;
+  static constexpr float kDepthlessOwn = 0.4f, kDepthlessNeighbours = 0.4f;
   static constexpr float kOutsideShift = -0.6f;  // nats; in no region when a detector has found something dynamic
   static constexpr float kMovableShift = 0.2f;   // nats
   static constexpr float kFixedShift = -0.3f;    // nats
