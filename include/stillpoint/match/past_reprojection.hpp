@@ -158,7 +158,6 @@ class PastReprojection {
       if (clearly_stands(i, frames)) return;
       for (std::size_t f = 0; f < frames.size(); ++f) least_unlike[f] = frames[f].of_feature[i];
     }
-    const auto is_compared = [](const Observation& observation) { return std::isfinite(observation.dissimilarity); };
     if (best == count || std::none_of(least_unlike.begin(), least_unlike.begin() + frames.size(), is_compared))
       return forget(i, matches);
     const bool is_confirmed = least < kNoEvidence * static_cast<float>(frames.size());
@@ -172,6 +171,11 @@ class PastReprojection {
                       Matches& matches) {
     matches.past_observations.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
     matches.past_observations.inverse_depth_sigma[i] = inverse_depth_sigma;
+  }
+
+  static bool is_compared(const Observation& observation) noexcept { return std::isfinite(observation.dissimilarity); }
+  static float dissimilarity_of(const Observation& observation) noexcept {
+    return is_compared(observation) ? observation.dissimilarity : kNoEvidence;
   }
 
   /// The feature lies on no known surface.
@@ -201,7 +205,7 @@ class PastReprojection {
       observation = look_in(history.back(older.age).view(), older.reference_from_current, point,
                             inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
-      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kNoEvidence;
+      dissimilarity += dissimilarity_of(observation);
       return dissimilarity < most;
     };
     const span<OlderFrame> frames = past_observations.frames();
@@ -209,7 +213,7 @@ class PastReprojection {
     dissimilarity = 0;  // with what was not looked at
     for (const OlderFrame& older : frames) {
       const Observation& observation = older.of_feature[i];
-      dissimilarity += std::isfinite(observation.dissimilarity) ? observation.dissimilarity : kNoEvidence;
+      dissimilarity += dissimilarity_of(observation);
     }
     return dissimilarity;
   }
