@@ -40,11 +40,11 @@ class SamePlace {
   static constexpr std::size_t kMost = 64;  // in a cell: those after them are looked for each by itself
   static constexpr float kNear_px = 1.0f;   // patches of eight pixels are the same there but for a line
 
+  /// Pixels may lie anywhere: the numbers of cells need not fit an integer.
   void enter_cell_of(const Vector2f& pixel) noexcept {
-    const auto u = static_cast<int>(pixel.x() / cell_px_), v = static_cast<int>(pixel.y() / cell_px_);
-    if (u != u_ || v != v_) count_ = 0;
-    u_ = u;
-    v_ = v;
+    const Vector2f cell = (pixel / cell_px_).array().floor();
+    if (cell != cell_) count_ = 0;
+    cell_ = cell;
   }
 
   static bool is_near(const Vector2f& a, const Vector2f& b) noexcept {
@@ -57,7 +57,7 @@ class SamePlace {
   }
 
   float cell_px_;
-  int u_ = -1, v_ = -1;
+  Vector2f cell_ = Vector2f::Constant(-1);
   std::array<Vector2f, kMost> pixel_;
   std::array<std::uint32_t, kMost> feature_;
   std::size_t count_ = 0;

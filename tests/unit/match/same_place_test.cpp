@@ -50,6 +50,12 @@ TEST(SamePlace, IsForgottenWithItsCell) {
   EXPECT_EQ(shared({{{31.5f, 8}, 2}, {{32.5f, 8}, 2}, {{31.5f, 8}, 2}}), (Indices{0, 1, 2}));
 }
 
+// A sanitizer names a number of a cell that fits no integer.
+TEST(SamePlace, MayBeFarOutsideTheImage) {
+  EXPECT_EQ(shared({{{1e30f, -5}, 2}, {{1e30f, -5.5f}, 2}, {{-1e30f, 3e38f}, 2}, {{1e30f, -5}, 2}}),
+            (Indices{0, 0, 2, 3}));
+}
+
 // A cell full of corners: those beyond the 64th are each looked for, the first ones are still known.
 TEST(SamePlace, AFullCellIsNoError) {
   std::vector<Feature> features;
