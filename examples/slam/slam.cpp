@@ -123,13 +123,7 @@ bool Slam::wants_keyframe(const Frame& frame) const {
   const Map& map = keeper_->map;
   const Pose last_from_camera = map.keyframe(map.last_keyframe()).camera_from_world * frame.camera_from_world.inverse();
   if (distance(last_from_camera, Pose::Identity()) > options.keyframe_motion) return true;
-  std::size_t with_depth = 0, explained = 0;
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    if (frame.deviates[i] != 0) continue;
-    with_depth += frame.depth_m[i] > 0;
-    explained += frame.depth_m[i] > 0 && frame.point[i] != kNone;
-  }
-  return static_cast<double>(explained) < options.keyframe_share * static_cast<double>(with_depth);
+  return explained_share(frame) < options.keyframe_share;
 }
 
 }  // namespace examples::slam

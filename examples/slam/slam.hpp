@@ -42,7 +42,7 @@ struct SlamOptions {
   SpreadOrb::Options orb;
   MeasurementNoise noise;
   DepthLimits depth_limits;
-  double keyframe_share = 0.4;        ///< a new keyframe where the map explains less of the features with depth
+  double keyframe_share = 0.4;        ///< a new keyframe where the map explains less: `explained_share`
   double keyframe_motion = 0.2;       ///< or the camera has moved this far from the last: metres plus radians
   std::size_t most_waiting = 2;       ///< keyframes that mapping has not come to: then there is no new one
   std::size_t fewest_to_begin = 100;  ///< features with depth: fewer make no first keyframe

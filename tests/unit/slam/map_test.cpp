@@ -118,6 +118,22 @@ TEST(Mapping, PointsSeenOnceAreOnTrial) {
   expect_consistent(map);
 }
 
+// Eight suspect features of weight 0.3 show points, two that stand for sure show none: by squares
+// 8 · 0.09 / (8 · 0.09 + 2) = 0.72 / 2.72, where their number would say 0.8.
+TEST(Frame, WhatTheMapExplainsIsCountedBySquaredWeight) {
+  slam::Frame frame = made_frame(made_points(10), camera_at(0));
+  frame.features.weights.assign(std::vector<float>{0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 0.3F, 1.0F, 1.0F});
+  frame.deviates.assign(10, 0);
+  for (std::size_t i = 0; i < 8; ++i) frame.point[i] = static_cast<slam::PointId>(i);
+  EXPECT_NEAR(slam::explained_share(frame), 0.72 / 2.72, 1e-7);
+  frame.depth_m[8] = 0.0;
+  EXPECT_NEAR(slam::explained_share(frame), 0.72 / 1.72, 1e-7) << "without depth it makes no point";
+  frame.deviates[9] = 1;
+  EXPECT_NEAR(slam::explained_share(frame), 1.0, 1e-7) << "what deviates is not to be explained";
+  frame.depth_m.assign(10, 0.0);
+  EXPECT_EQ(slam::explained_share(frame), 1.0);
+}
+
 // A point that one feature has placed is as wrong as that feature: with the noise of both an offset of three pixel
 // sigmas is 4.5 in chi-squared, with that of one it is 9 and beyond the limit of 7.8.
 TEST(Mapping, APointSeenOnceIsAsWrongAsAFeature) {
