@@ -162,16 +162,26 @@ TEST(DefaultScenes, MaskStaysUpWhenNothingUnderItIsHandedIn) {
             anywhere.background().features - anywhere.background().dropped);
 }
 
-// Two centimetres a second are a fifth of a pixel from frame to frame: no single pair of frames shows it.
+// Two centimetres a second are a fifth of a pixel from frame to frame: no single pair of frames shows it. From scene to
+// scene it is found at once or after a third of a second, and in one scene recall changes by 0.05 with how a processor
+// rounds: what holds is said of five scenes.
 TEST(DefaultScenes, ABoxThatCreepsIsFound) {
-  synthetic::Scene scene = synthetic::slow_mover(full_size(60));
-  scene.motion_rule.window_frames = 30;  // by which it moves by the rule's centimetre
-  FrameFilter<> filter(scene.camera);
-  const Outcome outcome = run(scene, filter);
-  expect_all_judged(outcome);
-  ASSERT_GT(outcome.score.moving().features, 5000u);
-  EXPECT_GE(outcome.score.recall(), 0.9);
-  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  std::vector<double> recall;
+  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
+    synthetic::SceneOptions options = full_size(60);
+    options.seed = seed;
+    synthetic::Scene scene = synthetic::slow_mover(options);
+    scene.motion_rule.window_frames = 30;  // by which it moves by the rule's centimetre
+    FrameFilter<> filter(scene.camera);
+    const Outcome outcome = run(scene, filter);
+    expect_all_judged(outcome);
+    ASSERT_GT(outcome.score.moving().features, 5000u) << seed;
+    EXPECT_LE(outcome.score.false_alarms(), 0.005) << seed;
+    recall.push_back(outcome.score.recall().value());
+  }
+  std::sort(recall.begin(), recall.end());
+  EXPECT_GE(recall[2], 0.9) << "the median";
+  EXPECT_GE(recall[0], 0.65);
 }
 
 // Someone who sways fills more than three quarters of the picture, and no detector says so: what is left of the room at
