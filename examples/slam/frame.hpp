@@ -50,9 +50,9 @@ struct Frame {
   const std::uint8_t* descriptor(int feature) const { return features.descriptors.ptr(feature); }
 };
 
-/// How much of a frame the map explains, 0 to 1: of the features with depth that do not deviate from it, those that show a
-/// point; 1 if there are none. Squared weights are counted: a person who stands still for now may fill the image, and
-/// all of it is explained. When the person goes, the map must know what was behind.
+/// How much of a frame the map explains, 0 to 1: of the features with depth that do not deviate from it, those that
+/// show a point; 1 if there are none. Squared weights are counted: a person who stands still for now may fill the
+/// image, and all of it is explained. When the person goes, the map must know what was behind.
 inline double explained_share(const Frame& frame) {
   double all = 0.0, explained = 0.0;
   for (std::size_t i = 0; i < frame.size(); ++i) {

@@ -4,6 +4,7 @@
 
 // A filter over all frames of a synthetic scene.
 
+#include <cstdint>
 #include <vector>
 
 #include "stillpoint/core/frame_result.hpp"
@@ -14,12 +15,12 @@
 namespace stillpoint::scene_run {
 
 /// Scenes of 320 × 240 pixels.
-inline synthetic::SceneOptions small(int frames) {
+inline synthetic::SceneOptions small(int frames, std::uint64_t seed = 1) {
   synthetic::SceneOptions options;
   options.width = 320;
   options.height = 240;
   options.frames = frames;
-  options.seed = 1;
+  options.seed = seed;
   return options;
 }
 
