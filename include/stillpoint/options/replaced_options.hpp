@@ -95,7 +95,7 @@ inline constexpr std::array<ReplacedOption, 121> kReplacedOptions = {{
     {"gate.gain", "fixed at 0.01: nats a frame"},
     {"gate.most_excess", "fixed at 2: times the rate"},
     {"gate.most_raised", "fixed at 3: nats"},
-    {"gate.stood_below", "fixed: counted in each frame, -1.5 nats where nothing can be counted"},
+    {"gate.stood_below", "fixed at -1.5: nats"},
     {"gate.trusted", "fixed at 0.95: nothing nearby is suspect"},
     {"gate.fewest_known", "fixed at 50: fewer teach nothing"},
     {"classifier.fewest_clusters", "fixed at 2: classifier.features_per_cluster sets their number"},
