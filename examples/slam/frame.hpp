@@ -46,6 +46,8 @@ struct Frame {
   Pose camera_from_world = Pose::Identity();
 
   std::size_t size() const { return pixel.size(); }
+  /// Nothing deviates before tracking.
+  bool is_deviating(std::size_t i) const { return !deviates.empty() && deviates[i] != 0; }
   int octave(int feature) const { return features.keypoints[static_cast<std::size_t>(feature)].octave; }
   const std::uint8_t* descriptor(int feature) const { return features.descriptors.ptr(feature); }
 };
@@ -56,7 +58,7 @@ struct Frame {
 inline double explained_share(const Frame& frame) {
   double all = 0.0, explained = 0.0;
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    if (frame.deviates[i] != 0 || !(frame.depth_m[i] > 0)) continue;
+    if (frame.is_deviating(i) || !(frame.depth_m[i] > 0)) continue;
     const double squared_weight = frame.features.weights[i] * frame.features.weights[i];
     all += squared_weight;
     if (frame.point[i] != kNone) explained += squared_weight;

@@ -33,17 +33,14 @@ std::vector<KeyframeId> Mapping::neighbours(KeyframeId id, const Map& map) const
   return result;
 }
 
-/// What moves makes a new point wherever it has come to, and all of them together drag the pose along.
-bool Mapping::may_make_point(const Keyframe& keyframe, std::size_t feature) const {
-  return keyframe.deviates.empty() || keyframe.deviates[feature] == 0;
-}
-
+/// Not those that deviate: what moves makes a new point wherever it has come to, and all of them together drag the pose
+/// along.
 void Mapping::add_points_by_depth(KeyframeId id, Map& map) const {
   const Keyframe& keyframe = map.keyframe(id);
   const Pose world_from_camera = keyframe.camera_from_world.inverse();
   for (std::size_t i = 0; i < keyframe.size(); ++i) {
     const double depth_m = keyframe.depth_m[i];
-    if (keyframe.point[i] != kNone || !(depth_m > 0) || !may_make_point(keyframe, i)) continue;
+    if (keyframe.point[i] != kNone || !(depth_m > 0) || keyframe.is_deviating(i)) continue;
     const Vector3d p_camera = camera_.back_project(keyframe.pixel[i], depth_m);
     const Vector3d ray_sigma_m = world_from_camera.linear() * (p_camera * (noise_.depth_m(depth_m) / depth_m));
     map.add_point(id, static_cast<int>(i), world_from_camera * p_camera, ray_sigma_m);
@@ -57,8 +54,7 @@ void Mapping::add_points_by_two_views(KeyframeId id, Map& map) const {
     const Keyframe& other = map.keyframe(other_id);
     const Pose other_from_keyframe = other.camera_from_world * keyframe.camera_from_world.inverse();
     for (std::size_t i = 0; i < keyframe.size(); ++i) {
-      if (keyframe.point[i] != kNone || keyframe.depth_m[i] > 0) continue;
-      if (!may_make_point(keyframe, i)) continue;
+      if (keyframe.point[i] != kNone || keyframe.depth_m[i] > 0 || keyframe.is_deviating(i)) continue;
       const int feature = static_cast<int>(i);
       const int twin = most_alike(keyframe, feature, other, other_from_keyframe);
       if (twin == kNone) continue;

@@ -51,7 +51,6 @@ class Mapping {
   std::vector<CulledKeyframe> cull_keyframes(KeyframeId newest, KeyframeId in_use, Map& map) const;
 
  private:
-  bool may_make_point(const Keyframe& keyframe, std::size_t feature) const;
   void add_points_by_depth(KeyframeId id, Map& map) const;
   void add_points_by_two_views(KeyframeId id, Map& map) const;
   int most_alike(const Keyframe& keyframe, int feature, const Keyframe& other, const Pose& other_from_keyframe) const;
