@@ -21,9 +21,12 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 #include "stillpoint/verdict/keep_flags.hpp"
+#include "unit/pipeline/scene_run.hpp"
 
 namespace stillpoint::default_scenes_test {
 namespace {
+
+using scene_run::small;
 
 enum class Prior { none, boxes };
 
@@ -86,15 +89,6 @@ synthetic::SceneOptions full_size(int frames) {
   synthetic::SceneOptions options;
   options.frames = frames;
   options.seed = 1;
-  return options;
-}
-
-synthetic::SceneOptions small(int frames, std::uint64_t seed = 1) {
-  synthetic::SceneOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.frames = frames;
-  options.seed = seed;
   return options;
 }
 

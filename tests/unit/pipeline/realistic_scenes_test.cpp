@@ -28,6 +28,7 @@
 #include "stillpoint/synthetic/stereo.hpp"
 #include "stillpoint/synthetic/street.hpp"
 #include "stillpoint/synthetic/truth.hpp"
+#include "unit/pipeline/scene_run.hpp"
 
 namespace stillpoint::realistic_scenes_test {
 namespace {
@@ -39,14 +40,7 @@ constexpr std::uint64_t kSeeds[] = {1, 2, 3};
 #endif
 constexpr double kBend_m = 23.0;  // 2.5 degrees per frame, as in a bend that KITTI recorded
 
-synthetic::SceneOptions small(int frames, std::uint64_t seed) {
-  synthetic::SceneOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.frames = frames;
-  options.seed = seed;
-  return options;
-}
+using scene_run::small;
 
 /// Half of KITTI's size, or all of it.
 synthetic::SceneOptions car(int frames, std::uint64_t seed, bool has_full_size) {
