@@ -46,6 +46,10 @@ class SpaceSearch {
                           const Camera& camera, const Noise& noise, int step_px, Matches& matches,
                           Workspace& workspace) const {
     const span<SurfaceCell> cells = matches.past_observations.surfaces;
+    const Workspace::Scope scope(workspace);
+    const SeenEarly seen_early{workspace.take<std::uint8_t>(cells.size(), 0),
+                               workspace.take<std::uint8_t>(matches.size(), 0)};
+    const double early_s = early_after_s(history, timestamp_s);
     for_each_view(history, timestamp_s, filter_from_expected, camera, noise, [&](double elapsed_s, const auto& look) {
       std::size_t through = 0, there = 0;
       for (SurfaceCell& cell : cells) {
@@ -54,17 +58,19 @@ class SpaceSearch {
         there += cell.seen == Space::occupied;
       }
       if (static_cast<double>(through) > kMostCame * static_cast<double>(through + there)) return;
-      const bool is_old = elapsed_s > kSettled_s;
-      const auto judge = [&](Space seen, float& trust, std::uint8_t& was_there) {
+      const bool is_old = elapsed_s > kSettled_s, is_early = elapsed_s >= early_s;
+      const auto judge = [&](Space seen, float& trust, std::uint8_t& was_there, std::uint8_t& was_early) {
         if (seen == Space::free) trust = std::min(trust, kTrustOfWhatCame);
         if (seen == Space::occupied && is_old) ++was_there;
+        if (seen == Space::occupied && is_early) was_early = 1;
       };
-      for (SurfaceCell& cell : cells) judge(cell.seen, cell.space_trust, cell.was_there);
+      for (std::size_t s = 0; s < cells.size(); ++s)
+        judge(cells[s].seen, cells[s].space_trust, cells[s].was_there, seen_early.cells[s]);
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
         if (matches.current.has_depth(i))
-          judge(look(matches.current.point[i]), matches.space_trust[i], matches.was_there[i]);
+          judge(look(matches.current.point[i]), matches.space_trust[i], matches.was_there[i], seen_early.corners[i]);
     });
-    spread_distrust(static_cast<float>(step_px), camera.fx(), matches, workspace);
+    spread_distrust(static_cast<float>(step_px), camera.fx(), seen_early, matches, workspace);
   }
 
  private:
@@ -74,13 +80,27 @@ class SpaceSearch {
   static constexpr double kDrift_m_s = 0.05;        // … and this much more for each second that poses are chained …
   static constexpr double kSigmas = 4.0;            // … and so many standard deviations of both depths
   static constexpr double kMostCame = 0.6;          // share of the surfaces: people hide half of a room, rarely more
-  static constexpr double kSettled_s = 2.2;         // what was there so long ago is no newcomer
+  static constexpr double kSettled_s = 2.2;         // what was there so long ago is no newcomer …
+  static constexpr double kEarlyShare = 0.5;        // … nor, while less is remembered, this share of it ago
   static constexpr float kTrustOfWhatCame = 0.05f;  // as that of what was seen moving for some frames
   static constexpr int kSpreadCells = 12;           // half of an image's width
   static constexpr double kNearest_m = 0.1;
 
+  /// 1: a view of the earlier half of what is remembered saw it in its place.
+  struct SeenEarly {
+    span<std::uint8_t> cells, corners;
+  };
+
+  /// How old a view must be to tell the room from who came: at the beginning none is `kSettled_s` old, and what nobody
+  /// contradicts would all go to those who came.
+  static double early_after_s(const SpaceHistory& history, double timestamp_s) noexcept {
+    if (history.size() == 0) return kSettled_s;
+    return std::min(kSettled_s, kEarlyShare * (timestamp_s - history.back(history.size()).timestamp_s));
+  }
+
   /// A cell that no view knows takes the majority's side of those that adjoin it, round by round.
-  static void spread_distrust(float step_px, double focal_px, Matches& matches, Workspace& workspace) {
+  static void spread_distrust(float step_px, double focal_px, const SeenEarly& seen_early, Matches& matches,
+                              Workspace& workspace) {
     const span<SurfaceCell> cells = matches.past_observations.surfaces;
     if (cells.empty()) return;
     const Workspace::Scope scope(workspace);
@@ -89,7 +109,7 @@ class SpaceSearch {
     const span<Side> side = workspace.take<Side>(cells.size());
     const span<Side> next = workspace.take<Side>(cells.size());
     for (std::size_t s = 0; s < cells.size(); ++s)
-      side[s] = cells[s].space_trust < 1.0f ? Side::came : cells[s].was_there > 0 ? Side::stood : Side::nobody_knows;
+      side[s] = cells[s].space_trust < 1.0f ? Side::came : seen_early.cells[s] != 0 ? Side::stood : Side::nobody_knows;
     if (std::find(side.begin(), side.end(), Side::came) == side.end()) return;  // nothing to hand on
     const auto majority = [&](const Vector2f& pixel, double depth_m) {
       int came = 0, stood = 0;
@@ -106,7 +126,7 @@ class SpaceSearch {
       std::copy(next.begin(), next.end(), side.begin());
     }
     for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-      if (matches.current.has_depth(i) && matches.space_trust[i] >= 1.0f && matches.was_there[i] == 0 &&
+      if (matches.current.has_depth(i) && matches.space_trust[i] >= 1.0f && seen_early.corners[i] == 0 &&
           majority(matches.current.pixel[i], matches.current.depth_m[i]) == Side::came)
         matches.space_trust[i] = kTrustOfWhatCame;
     for (std::size_t s = 0; s < cells.size(); ++s)

@@ -26,9 +26,10 @@ namespace stillpoint {
 
 /// Log-odds add up over frames and forget; they give the verdicts. Suspicion is sticky, inherited by new features whose
 /// neighbours on the same surface are suspect by majority, and only lowers the say in the ego-motion: what moved once
-/// and stands still now will drag the pose when it starts again. Surface cells hand it on too, where there is no
-/// corner: a sleeve that comes into view belongs to the man whose collar was seen moving. If suspicion drove verdicts,
-/// false positives would spread from surface to surface.
+/// and stands still now will drag the pose when it starts again. A neighbour that is new itself knows little, and has
+/// little of a vote: where depth comes and goes, half of a person's corners are new in each frame. Surface cells hand
+/// it on too, where there is no corner: a sleeve that comes into view belongs to the man whose collar was seen moving.
+/// If suspicion drove verdicts, false positives would spread from surface to surface.
 class EvidenceMemory {
  public:
   using Needs = Capabilities<capability::log_odds>;
@@ -85,6 +86,7 @@ class EvidenceMemory {
     dynamic_.clear();
     const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
     const auto suspicion_gain = static_cast<float>(1.0 - std::exp(-matches.elapsed_s / options.suspicion_rise_s));
+    const auto certainty_gain = static_cast<float>(1.0 - std::exp(-matches.elapsed_s / kCertaintyRise_s));
     const float cautious = caution_at(persistence);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Memory before = recalled_[i];
@@ -94,13 +96,17 @@ class EvidenceMemory {
       label.log_odds = std::clamp(persistence * before.log_odds + now + before.by_map - cautious, least, kMostLogOdds);
       label.trust = observations.remembered.trust[i];
       decide(label, now);
-      float suspicion = before.suspicion;
-      if (label.log_odds > kSuspectAbove) suspicion += suspicion_gain * (1.0f - before.suspicion);
-      remember(matches.current.pixel[i], matches.current.depth_m[i], {label.log_odds, suspicion}, true);
+      Memory after = before;
+      after.log_odds = label.log_odds;
+      if (label.log_odds > kSuspectAbove) after.suspicion += suspicion_gain * (1.0f - before.suspicion);
+      after.certainty += certainty_gain * (1.0f - before.certainty);
+      remember(matches.current.pixel[i], matches.current.depth_m[i], after, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       const SurfaceCell& cell = matches.past_observations.surfaces[s];
-      remember(cell.pixel, cell.point.z(), recalled_of_cell_[s], false);
+      Memory after = recalled_of_cell_[s];
+      after.certainty += certainty_gain * (1.0f - after.certainty);
+      remember(cell.pixel, cell.point.z(), after, false);
     }
   }
 
@@ -128,10 +134,11 @@ class EvidenceMemory {
   static constexpr float kSuspectAbove = 2.0f;  // log-odds that make a feature suspect, nats
   static constexpr float kRestlessness =
       0.6f;  // share of the lower bound that full suspicion takes away: it may restart
-  static constexpr float kMapEvidence = 6.0f;    // nats: several points of a map outweigh two frames that agree
-  static constexpr float kLeastTrust = 0.01f;    // say of a feature of full suspicion
-  static constexpr float kFeature_px = 15.0f;    // how far a feature may have moved and still be recognised
-  static constexpr float kNeighbour_px = 25.0f;  // neighbours that hand suspicion on
+  static constexpr float kMapEvidence = 6.0f;      // nats: several points of a map outweigh two frames that agree
+  static constexpr float kLeastTrust = 0.01f;      // say of a feature of full suspicion
+  static constexpr double kCertaintyRise_s = 1.0;  // time in which all but 1 / e is known of what is watched
+  static constexpr float kFeature_px = 15.0f;      // how far a feature may have moved and still be recognised
+  static constexpr float kNeighbour_px = 25.0f;    // neighbours that hand suspicion on
   static constexpr float kMinority =
       0.25f;  // share of suspect neighbours below which none is handed on; above 1 − this, all
   static constexpr DepthTolerance kSameSurface{0.06};
@@ -141,11 +148,13 @@ class EvidenceMemory {
     float log_odds = 0;
     float suspicion = 0;  ///< 0 to 1
     float by_map = 0;     ///< nats, of a host's map
+    float certainty = 0;  ///< of the suspicion, 0 to 1
   };
 
   void remember(const Vector2f& pixel, double depth_m, const Memory& memory, bool is_feature) {
     pixel_.push_back(pixel);
-    remembered_.push_back({pixel, static_cast<float>(depth_m), memory.log_odds, memory.suspicion, is_feature});
+    remembered_.push_back(
+        {pixel, static_cast<float>(depth_m), memory.log_odds, memory.suspicion, is_feature, memory.certainty});
   }
 
   /// What two views of seconds ago saw in its place, and none saw through, has stood.
@@ -165,6 +174,7 @@ class EvidenceMemory {
         points.around(pixel, static_cast<float>(depth_m), static_cast<float>(tolerance_m));
     Memory memory;
     if (near.feature_weight > 0) memory.log_odds = near.log_odds / near.feature_weight;
+    if (near.asked > 0) memory.certainty = near.votes / near.asked;
     if (near.votes > 0) {
       const float majority = (near.suspicion / near.votes - kMinority) / (1 - 2 * kMinority);
       memory.suspicion = suspicion_left_ * std::clamp(majority, 0.0f, 1.0f);

@@ -22,6 +22,7 @@ struct RememberedPoint {
   float log_odds = 0;      ///< of moving
   float suspicion = 0;     ///< 0 to 1
   bool is_feature = true;  ///< a surface cell has no log-odds
+  float certainty = 1;     ///< 0 to 1: how much is known of its suspicion; so much counts its vote
 };
 
 /// How the remembered points around a place are weighed.
@@ -36,7 +37,8 @@ class RememberedPoints {
   /// Weighted sums over what is near a place.
   struct Sums {
     float feature_weight = 0, log_odds = 0;
-    float votes = 0, suspicion = 0;
+    float votes = 0, suspicion = 0;  ///< by certainty
+    float asked = 0;                 ///< the votes, had all been certain
   };
 
   RememberedPoints(span<const Vector2f> pixels, span<const RememberedPoint> points, const NeighbourWeights& weights,
@@ -49,7 +51,8 @@ class RememberedPoints {
         has_depth_(workspace.take<float>(padded())),
         log_odds_(workspace.take<float>(padded())),
         suspicion_(workspace.take<float>(padded())),
-        is_feature_(workspace.take<float>(padded())) {
+        is_feature_(workspace.take<float>(padded())),
+        certainty_(workspace.take<float>(padded())) {
     for (std::size_t rank = 0; rank < grid_.size(); ++rank) {
       const RememberedPoint& point = points[grid_.index(rank)];
       x_[rank] = point.pixel.x();
@@ -59,6 +62,7 @@ class RememberedPoints {
       log_odds_[rank] = point.log_odds;
       suspicion_[rank] = point.suspicion;
       is_feature_[rank] = point.is_feature ? 1.0f : 0.0f;
+      certainty_[rank] = point.certainty;
     }
   }
 
@@ -73,7 +77,7 @@ class RememberedPoints {
     constexpr float kOtherKind = 0.2f, kVoteOfOtherKind = 0.02f;
     const float has_depth = depth_m > 0 ? 1.0f : 0.0f;
     const Four lane = {0.0f, 1.0f, 2.0f, 3.0f};
-    Four feature_weight = none, log_odds = none, votes = none, suspicion = none;
+    Four feature_weight = none, log_odds = none, votes = none, suspicion = none, asked = none;
     // Runs first, sums later: compilers do not inline a visitor of this size, and then keep its sums in memory.
     std::array<Run, kMostRuns> runs;
     std::size_t count = 0;
@@ -89,8 +93,10 @@ class RememberedPoints {
         const Four off_m = depth_m - four(depth_m_, rank);
         const auto alike = four(has_depth_, rank) == has_depth;
         const auto counts = (lane < left) & (~alike | ((off_m <= tolerance_m) & (off_m >= -tolerance_m)));
-        const Four vote =
+        const Four say =
             where(counts, larger(1.0f - squared * per_reach, none) * where(alike, all, kVoteOfOtherKind * all), none);
+        const Four vote = say * four(certainty_, rank);
+        asked += say;
         votes += vote;
         suspicion += vote * four(suspicion_, rank);
         const Four near = larger(1.0f - squared * per_feature, none);
@@ -100,7 +106,7 @@ class RememberedPoints {
         log_odds += weight * four(log_odds_, rank);
       }
     }
-    return {sum_of(feature_weight), sum_of(log_odds), sum_of(votes), sum_of(suspicion)};
+    return {sum_of(feature_weight), sum_of(log_odds), sum_of(votes), sum_of(suspicion), sum_of(asked)};
   }
 
  private:
@@ -116,7 +122,7 @@ class RememberedPoints {
 
   NeighbourWeights weights_;
   PixelGrid grid_;
-  span<float> x_, y_, depth_m_, has_depth_, log_odds_, suspicion_, is_feature_;  // by rank
+  span<float> x_, y_, depth_m_, has_depth_, log_odds_, suspicion_, is_feature_, certainty_;  // by rank
 };
 
 }  // namespace stillpoint

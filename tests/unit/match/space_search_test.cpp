@@ -99,13 +99,14 @@ class SpaceSearchTest : public testing::Test {
 
   void distrust(Matches& matches) {
     Workspace workspace;
-    search_.distrust_what_came(history_, kNow_s, Pose::Identity(), camera_, KinectNoise(), kStep_px, matches,
+    search_.distrust_what_came(history_, now_s_, Pose::Identity(), camera_, KinectNoise(), kStep_px, matches,
                                workspace);
   }
 
   static constexpr int kStep_px = 20;
 
   static constexpr double kNow_s = 4.4;
+  double now_s_ = kNow_s;
   const cv::Mat gray_{kHeight, kWidth, CV_8UC1, cv::Scalar(50)};
   cv::Mat depth_{kHeight, kWidth, CV_32FC1, cv::Scalar(3.0)};
   Camera camera_{300, 300, 160, 120, kWidth, kHeight};
@@ -179,6 +180,35 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
       EXPECT_EQ(cell.space_trust, 1.0f) << cell.pixel.transpose();
   }
   EXPECT_LT(matches.space_trust[0], 0.1f);
+}
+
+// A body 0.4 m before the wall adjoins it: 2.75 · 20 / 300 · 2.6 m = 0.48 m. The views are 0.4, 0.8 and 1.2 s old, none
+// of them 2.2 s. Those of the earlier half know the wall, which stays trusted; the newest alone would not do.
+TEST_F(SpaceSearchTest, AtTheBeginningTheOldestViewsTellTheRoomFromWhoCame) {
+  for (const bool early_ones_saw_the_wall : {true, false}) {
+    history_.clear();
+    for (const double t : {0.0, 0.4, 0.8}) {
+      cv::Mat depth = depth_.clone();
+      if (t < 0.6 && !early_ones_saw_the_wall) depth(cv::Rect(0, 121, kWidth, kHeight - 121)).setTo(0.0);
+      history_.push(view_of(gray_, depth, t), Pose::Identity());
+    }
+    now_s_ = 1.2;
+    Matches matches;
+    matches.begin(std::vector<Vector2f>());
+    for (const int v : {110, 130, 150})
+      for (int u = 10; u < kWidth; u += kStep_px) {
+        SurfaceCell cell;
+        cell.pixel = Vector2f(static_cast<float>(u), static_cast<float>(v));
+        cell.point = camera_.back_project(cell.pixel.cast<double>(), v == 110 ? 2.6 : 3.0);
+        matches.past_observations.surfaces.push_back(cell);
+      }
+    distrust(matches);
+    for (const SurfaceCell& cell : matches.past_observations.surfaces) {
+      const bool is_trusted = cell.pixel.y() > 110 && early_ones_saw_the_wall;
+      EXPECT_EQ(cell.space_trust >= 1.0f, is_trusted) << cell.pixel.transpose();
+      EXPECT_EQ(cell.was_there, 0) << "no view is old enough to say so";
+    }
+  }
 }
 
 TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {

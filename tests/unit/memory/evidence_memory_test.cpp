@@ -283,6 +283,17 @@ TEST_F(EvidenceMemoryTest, SuspicionIsInheritedByMajority) {
   }
 }
 
+// What is known of a feature rises by g = 1 − exp(−0.1 s / 1 s) = 0.0952 of what is missing. The suspect is in its
+// second frame, 0.0952 + 0.0952 · 0.9048 = 0.1813; the other one, 40 px away, in its first. Half way between them the
+// suspect's share is 0.1813 / (0.1813 + 0.0952) = 0.6558: (0.6558 − ¼) / ½ · 0.9 = 0.7304 is handed on, by equal votes
+// 0.45.
+TEST_F(EvidenceMemoryTest, WhoIsNewHasLittleOfAVote) {
+  frame({{Vector2f(30, 50)}}, {5.0f});
+  frame({{Vector2f(30, 50)}, {Vector2f(70, 50)}}, {5.0f, -1.0f});
+  frame(-1.0f);
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.7304f, 1e-3f);
+}
+
 TEST_F(EvidenceMemoryTest, SuspicionDoesNotJumpToAnotherSurface) {
   std::vector<Feature> features;
   std::vector<float> log_odds;

@@ -35,8 +35,9 @@ RememberedPoints::Sums one_by_one(const std::vector<RememberedPoint>& points, co
     const bool same_kind = (depth_m > 0) == (point.depth_m > 0);
     if (same_kind && std::abs(depth_m - point.depth_m) > kTolerance_m) continue;
     const float vote = std::max(0.0f, 1 - squared / (25.0f * 25.0f)) * (same_kind ? 1.0f : 0.02f);
-    sums.votes += vote;
-    sums.suspicion += vote * point.suspicion;
+    sums.asked += vote;
+    sums.votes += vote * point.certainty;
+    sums.suspicion += vote * point.certainty * point.suspicion;
     if (!point.is_feature) continue;
     const float near = std::max(0.0f, 1 - squared / (15.0f * 15.0f));
     const float weight = near * near * (same_kind ? 1.0f : 0.2f);
@@ -52,6 +53,11 @@ TEST(RememberedPoints, AVoteFallsWithTheDistance) {
   EXPECT_FLOAT_EQ(sums.votes, 0.64f);
   EXPECT_FLOAT_EQ(sums.suspicion, 0.32f);
   EXPECT_NEAR(sums.feature_weight, 0.0f, 1e-6f);
+  // One of which little is known has so much less of a vote.
+  const RememberedPoints::Sums unsure = sums_around({{{115, 100}, 2.0f, 3.0f, 0.5f, true, 0.25f}}, {100, 100}, 2.05f);
+  EXPECT_FLOAT_EQ(unsure.votes, 0.16f);
+  EXPECT_FLOAT_EQ(unsure.suspicion, 0.08f);
+  EXPECT_FLOAT_EQ(unsure.asked, 0.64f);
   // At 9 px (1 − 0.36)² = 0.4096 of its log-odds, unless it is a surface cell.
   EXPECT_FLOAT_EQ(sums_around({{{109, 100}, 2.0f, 3.0f, 0.5f, true}}, {100, 100}, 2.0f).log_odds, 3.0f * 0.4096f);
   EXPECT_EQ(sums_around({{{109, 100}, 2.0f, 3.0f, 0.5f, false}}, {100, 100}, 2.0f).feature_weight, 0.0f);
@@ -78,7 +84,8 @@ TEST(RememberedPoints, SumsAreThoseOfOnePointAfterTheOther) {
                random.uniform() < 0.3 ? 0.0f : uniform(1.9, 2.1),
                uniform(-3, 3),
                uniform(0, 1),
-               random.uniform() < 0.7};
+               random.uniform() < 0.7,
+               uniform(0, 1)};
     if (!points.empty() && seed % 3 == 0) points.front().pixel.x() = std::numeric_limits<float>::quiet_NaN();
     for (int query = 0; query < 20; ++query) {
       const Vector2f pixel(uniform(-10, 130), uniform(-10, 130));
@@ -86,6 +93,7 @@ TEST(RememberedPoints, SumsAreThoseOfOnePointAfterTheOther) {
       const RememberedPoints::Sums expected = one_by_one(points, pixel, depth_m);
       const RememberedPoints::Sums found = sums_around(points, pixel, depth_m);
       ASSERT_NEAR(found.votes, expected.votes, 1e-4f) << "seed " << seed;
+      ASSERT_NEAR(found.asked, expected.asked, 1e-4f) << "seed " << seed;
       ASSERT_NEAR(found.suspicion, expected.suspicion, 1e-4f) << "seed " << seed;
       ASSERT_NEAR(found.feature_weight, expected.feature_weight, 1e-4f) << "seed " << seed;
       ASSERT_NEAR(found.log_odds, expected.log_odds, 1e-4f) << "seed " << seed;
