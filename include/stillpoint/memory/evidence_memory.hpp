@@ -85,8 +85,14 @@ class EvidenceMemory {
     remembered_.clear();
     dynamic_.clear();
     const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
-    const auto suspicion_gain = static_cast<float>(1.0 - std::exp(-matches.elapsed_s / options.suspicion_rise_s));
-    const auto certainty_gain = static_cast<float>(1.0 - std::exp(-matches.elapsed_s / kCertaintyRise_s));
+    const auto gain = [&matches](double rise_s) {
+      return static_cast<float>(1.0 - std::exp(-matches.elapsed_s / rise_s));
+    };
+    const float suspicion_gain = gain(options.suspicion_rise_s), certainty_gain = gain(kCertaintyRise_s);
+    const auto watched = [certainty_gain](Memory memory) {
+      memory.certainty += certainty_gain * (1.0f - memory.certainty);
+      return memory;
+    };
     const float cautious = caution_at(persistence);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Memory before = recalled_[i];
@@ -96,17 +102,14 @@ class EvidenceMemory {
       label.log_odds = std::clamp(persistence * before.log_odds + now + before.by_map - cautious, least, kMostLogOdds);
       label.trust = observations.remembered.trust[i];
       decide(label, now);
-      Memory after = before;
+      Memory after = watched(before);
       after.log_odds = label.log_odds;
       if (label.log_odds > kSuspectAbove) after.suspicion += suspicion_gain * (1.0f - before.suspicion);
-      after.certainty += certainty_gain * (1.0f - before.certainty);
       remember(matches.current.pixel[i], matches.current.depth_m[i], after, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       const SurfaceCell& cell = matches.past_observations.surfaces[s];
-      Memory after = recalled_of_cell_[s];
-      after.certainty += certainty_gain * (1.0f - after.certainty);
-      remember(cell.pixel, cell.point.z(), after, false);
+      remember(cell.pixel, cell.point.z(), watched(recalled_of_cell_[s]), false);
     }
   }
 

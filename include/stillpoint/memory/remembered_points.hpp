@@ -38,7 +38,7 @@ class RememberedPoints {
   struct Sums {
     float feature_weight = 0, log_odds = 0;
     float votes = 0, suspicion = 0;  ///< by certainty
-    float asked = 0;                 ///< the votes, had all been certain
+    float asked = 0;                 ///< what the votes would be if all were certain
   };
 
   RememberedPoints(span<const Vector2f> pixels, span<const RememberedPoint> points, const NeighbourWeights& weights,

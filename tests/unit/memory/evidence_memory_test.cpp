@@ -294,6 +294,16 @@ TEST_F(EvidenceMemoryTest, WhoIsNewHasLittleOfAVote) {
   EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.7304f, 1e-3f);
 }
 
+// The same with a surface cell where the suspect was, which knows 0.0952 of it and watches for a frame more: 0.1813. Of
+// the suspicion 0.9 is left: 0.9 · 0.6558 = 0.5902, (0.5902 − ¼) / ½ · 0.9 = 0.6124.
+TEST_F(EvidenceMemoryTest, ASurfaceCellIsWatchedToo) {
+  frame({{Vector2f(30, 50)}}, {5.0f});
+  surfaces_ = {cell(30, 2.0)};
+  frame({{Vector2f(70, 50)}}, {-1.0f});
+  frame(-1.0f);
+  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.6124f, 1e-3f);
+}
+
 TEST_F(EvidenceMemoryTest, SuspicionDoesNotJumpToAnotherSurface) {
   std::vector<Feature> features;
   std::vector<float> log_odds;
