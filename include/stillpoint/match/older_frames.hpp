@@ -115,15 +115,17 @@ void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& su
                            surfaces.scaled_step_px(camera), matches, workspace);
 }
 
+/// Whether a frame shows a feature clearly where a standing one would be.
+inline bool stands_in_place(const Observation& observation) noexcept {
+  constexpr float kAlike = 0.12f, kThere_px = 0.7f;
+  return observation.state == ObservationState::seen && observation.dissimilarity < kAlike &&
+         observation.offset_px < kThere_px;
+}
+
 /// Where neither the last nor the oldest frame objects to feature `i` standing still, those between would not either.
 inline bool clearly_stands(std::size_t i, span<const OlderFrame> frames) noexcept {
-  constexpr float kAlike = 0.12f, kThere_px = 0.7f;
-  const auto agrees = [i](const OlderFrame& older) {
-    const Observation& observation = older.of_feature[i];
-    return observation.state == ObservationState::seen && observation.dissimilarity < kAlike &&
-           observation.offset_px < kThere_px;
-  };
-  return !frames.empty() && agrees(frames[0]) && agrees(frames[frames.size() - 1]);
+  return !frames.empty() && stands_in_place(frames[0].of_feature[i]) &&
+         stands_in_place(frames[frames.size() - 1].of_feature[i]);
 }
 
 /// Calls `bool look_at(frame)`, which fills the observation of feature `i` and says whether to go on, for the last

@@ -19,6 +19,7 @@
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
+#include "stillpoint/match/hidden_before.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
 #include "stillpoint/match/same_place.hpp"
@@ -84,7 +85,8 @@ class PastReprojection {
   static constexpr float kNeighbourhood_px = 32.0f;  // features in one cell of this size are looked for in a row
   static constexpr int kFewestPixels = 25;           // of a patch's 64 that must lie on the feature's surface
   static constexpr DepthTolerance kSameSurface{};
-  static constexpr int kOccluderReach_px = 8;     // what is nearer within this reach covers a part of the patch
+  static constexpr DepthTolerance kNearer{0.01, 2.0};  // may have hidden what stands
+  static constexpr int kOccluderReach_px = 8;          // what is nearer within this reach covers a part of the patch
   static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
   static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one
   static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
@@ -199,17 +201,26 @@ class PastReprojection {
                                     PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
                           patch.count >= kFewestPixels;
     const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
+    const double depth_sigma_m = inverse_depth_sigma * depth_m * depth_m;
+    const span<OlderFrame> frames = past_observations.frames();
+    ShowsNearer shows_nearer{};
     float dissimilarity = 0;
     const auto look_at = [&](OlderFrame& older) {
       Observation& observation = older.of_feature[i];
-      observation = look_in(history.back(older.age).view(), older.reference_from_current, point,
-                            inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
+      observation = look_in(history.back(older.age).view(), older.reference_from_current, point, depth_sigma_m,
+                            textured ? &patch : nullptr, camera, noise);
+      shows_nearer[static_cast<std::size_t>(&older - frames.data())] =
+          observation.depth_m > 0 &&
+          static_cast<double>(observation.depth_m) <
+              (older.reference_from_current * point).z() -
+                  kNearer.at(std::hypot(depth_sigma_m, static_cast<double>(observation.depth_sigma_m)));
       if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
       dissimilarity += dissimilarity_of(observation);
       return dissimilarity < most;
     };
-    const span<OlderFrame> frames = past_observations.frames();
-    look_in_older_frames(i, frames, i >= matches.host_count, look_at);
+    const bool is_corner = i >= matches.host_count;
+    look_in_older_frames(i, frames, is_corner, look_at);
+    if (!is_corner) forget_where_hidden(i, shows_nearer, frames);
     dissimilarity = 0;  // with what was not looked at
     for (const OlderFrame& older : frames) {
       const Observation& observation = older.of_feature[i];

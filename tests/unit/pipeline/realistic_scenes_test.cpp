@@ -157,8 +157,8 @@ Outcome box_among_books() {
   return outcome;
 }
 
-// DISABLED_: the demand is not met yet. Measured: recall 0.924 (of 33586), false-positive rate 0.045 (of 49605).
-TEST(RealisticScenes, DISABLED_FivePeopleAtFiveHertzAreFound) {
+// Measured: recall 0.980, false-positive rate 0.011.
+TEST(RealisticScenes, FivePeopleAtFiveHertzAreFound) {
   const Outcome outcome = five_people();
   ASSERT_GT(outcome.moving.features, 8000 * std::size(kSeeds));
   EXPECT_GE(outcome.moving.share(), 0.95) << outcome;
@@ -172,8 +172,8 @@ TEST(RealisticScenes, ABoxAmongBooksIsFound) {
   EXPECT_GE(outcome.moving.share(), 0.95) << outcome;
 }
 
-// DISABLED_: the demand is not met yet. Measured: books 0.019 (of 58986).
-TEST(RealisticScenes, DISABLED_BooksBesideABoxAreKept) {
+// Measured: books 0.013; 0.019 where what the box has uncovered counts as changed.
+TEST(RealisticScenes, BooksBesideABoxAreKept) {
   const Outcome outcome = box_among_books();
   ASSERT_GT(outcome.books.features, 12000 * std::size(kSeeds));
   EXPECT_LE(outcome.background.share(), 0.02) << outcome;
