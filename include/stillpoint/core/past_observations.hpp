@@ -31,6 +31,7 @@ enum class Space {
 /// One feature in one older frame, looked for where a standing point would have been.
 struct Observation {
   ObservationState state = ObservationState::none;
+  bool shows_nearer = false;  ///< a surface in its place is nearer by more than noise: it may have hidden the point
   /// 1 − correlation of the most alike patch near by: 0 alike to 2 inverted; NaN: no patch could be compared.
   float dissimilarity = std::numeric_limits<float>::quiet_NaN();
   Vector2f found = Vector2f::Zero();  ///< undistorted pixel of that patch

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What stands and was uncovered a moment ago   An older frame that saw what hid it says nothing of it.
+// What stands and was uncovered a moment ago: an older frame that saw what hid it says nothing of it.
 
-#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -14,23 +13,23 @@
 
 namespace stillpoint {
 
-/// Whether each older frame shows something nearer in a feature's place; false where it has no depth there.
-using ShowsNearer = std::array<bool, OlderFrameChoice::kLooks>;
+/// Dissimilarity of a patch in a frame that can't be compared, as where something nearer hides the place: there a
+/// feature scores 0 nats (ReprojectionScore: 2.5 nats expected, 0.12 each). What contradicts is above, what fits below.
+inline constexpr float kNoEvidence = 0.3f;
 
-/// The last frame shows feature `i` where it is, if it stands. What an older frame shows there instead, unlike and
-/// nearer, hid it: that frame becomes `occluded`. So does every frame before it, but none before one that shows the
-/// feature in another place: what has moved was not hidden.
+/// What the last frame clearly shows in its place stands. An older frame that shows something else there, nearer, says
+/// nothing of it: it becomes `occluded`. Where a frame between shows the feature in another place it has moved, and all
+/// that is older counts.
 ///
 /// A surface that is nearer by less than `PlaceTest::kOcclusion_m` hides nothing by its depth alone, since noise and
 /// slopes look like that, too: a book that stands against the box that was pushed along it looked changed.
-inline void forget_where_hidden(std::size_t i, const ShowsNearer& shows_nearer, span<OlderFrame> frames) noexcept {
-  constexpr float kUnlike = 0.3f;  // where a patch is no evidence for either, by ReprojectionScore
+inline void forget_where_hidden(std::size_t i, span<OlderFrame> frames) noexcept {
   if (frames.empty() || !stands_in_place(frames[0].of_feature[i])) return;
   bool may_be_hidden = true;
   for (std::size_t f = 1; f < frames.size(); ++f) {
     Observation& observation = frames[f].of_feature[i];
     if (observation.state != ObservationState::seen) continue;
-    if (may_be_hidden && shows_nearer[f] && observation.dissimilarity > kUnlike) {
+    if (may_be_hidden && observation.shows_nearer && observation.dissimilarity > kNoEvidence) {
       observation.state = ObservationState::occluded;
       observation.dissimilarity = std::numeric_limits<float>::quiet_NaN();
     } else {

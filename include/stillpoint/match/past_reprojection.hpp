@@ -85,18 +85,14 @@ class PastReprojection {
   static constexpr float kNeighbourhood_px = 32.0f;  // features in one cell of this size are looked for in a row
   static constexpr int kFewestPixels = 25;           // of a patch's 64 that must lie on the feature's surface
   static constexpr DepthTolerance kSameSurface{};
-  static constexpr DepthTolerance kNearer{0.02, 4.0};  // may have hidden what stands
+  static constexpr DepthTolerance kNearer{0.02, 4.0};  // of what may have hidden a point that stands
   static constexpr int kOccluderReach_px = 8;          // what is nearer within this reach covers a part of the patch
   static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
   static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one
   static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
   static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
-  /// Dissimilarity of a patch in a frame that can't be compared, as where something nearer hides the place: there a
-  /// feature scores 0 nats (ReprojectionScore: 2.5 nats expected, 0.12 each). What contradicts is above, what fits
-  /// below.
-  static constexpr float kNoEvidence = 0.3f;
-  static constexpr int kSearchIterations = 3;  // a static point is not three pixels away: more find look-alikes
+  static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
   static constexpr float kSearchPrecision_px = 0.2f;
 
   static void order_by_place(Matches& matches, Workspace& workspace) {
@@ -201,26 +197,19 @@ class PastReprojection {
                                     PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
                           patch.count >= kFewestPixels;
     const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
-    const double depth_sigma_m = inverse_depth_sigma * depth_m * depth_m;
-    const span<OlderFrame> frames = past_observations.frames();
-    ShowsNearer shows_nearer{};
     float dissimilarity = 0;
     const auto look_at = [&](OlderFrame& older) {
       Observation& observation = older.of_feature[i];
-      observation = look_in(history.back(older.age).view(), older.reference_from_current, point, depth_sigma_m,
-                            textured ? &patch : nullptr, camera, noise);
-      shows_nearer[static_cast<std::size_t>(&older - frames.data())] =
-          observation.depth_m > 0 &&
-          static_cast<double>(observation.depth_m) <
-              (older.reference_from_current * point).z() -
-                  kNearer.at(std::hypot(depth_sigma_m, static_cast<double>(observation.depth_sigma_m)));
+      observation = look_in(history.back(older.age).view(), older.reference_from_current, point,
+                            inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
       dissimilarity += dissimilarity_of(observation);
       return dissimilarity < most;
     };
-    const bool is_corner = i >= matches.host_count;
+    const span<OlderFrame> frames = past_observations.frames();
+    const bool is_corner = i >= matches.host_count;  // which the motion leaves out where they are unlike
     look_in_older_frames(i, frames, is_corner, look_at);
-    if (!is_corner) forget_where_hidden(i, shows_nearer, frames);
+    if (!is_corner) forget_where_hidden(i, frames);
     dissimilarity = 0;  // with what was not looked at
     for (const OlderFrame& older : frames) {
       const Observation& observation = older.of_feature[i];
@@ -235,6 +224,10 @@ class PastReprojection {
     const StaticPlace place = PlaceTest{options.occlusion_sigmas, guard}.look(older, reference_from_current, point,
                                                                               depth_sigma_m, camera, noise);
     Observation observation = place.observation;
+    const auto there_m = static_cast<double>(observation.depth_m);
+    const auto there_sigma_m = static_cast<double>(observation.depth_sigma_m);
+    const double sigma_m = std::sqrt(depth_sigma_m * depth_sigma_m + there_sigma_m * there_sigma_m);
+    observation.shows_nearer = there_m > 0 && there_m < place.point.z() - kNearer.at(sigma_m);
     if (!place.in_view || patch == nullptr || observation.state == ObservationState::occluded) return observation;
     if (beside_occluder(older, place.pixel, place.nearer_than_m, scaled_px(kOccluderReach_px, camera)))
       return observation;

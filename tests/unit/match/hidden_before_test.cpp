@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -21,11 +22,16 @@ Observation shown(float dissimilarity, float offset_px) {
 
 const Observation kStands = shown(0.05f, 0.2f), kMoved = shown(0.05f, 2.0f), kUnlike = shown(0.8f, 1.0f);
 
+using ShowsNearer = std::array<bool, 3>;
+
 /// Which of three frames, the last one first, are occluded after the rule.
 std::vector<bool> hidden(const std::vector<Observation>& observations, const ShowsNearer& shows_nearer) {
   std::vector<OlderFrame> frames(observations.size());
-  for (std::size_t f = 0; f < frames.size(); ++f) frames[f].of_feature = {Observation{}, observations[f]};
-  forget_where_hidden(1, shows_nearer, {frames.data(), frames.size()});
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    frames[f].of_feature = {Observation{}, observations[f]};
+    frames[f].of_feature[1].shows_nearer = shows_nearer[f];
+  }
+  forget_where_hidden(1, {frames.data(), frames.size()});
   std::vector<bool> result;
   for (const OlderFrame& frame : frames) {
     const bool is_hidden = frame.of_feature[1].state == ObservationState::occluded;

@@ -172,6 +172,32 @@ TEST_F(PastReprojectionTest, FreeSpaceIsSeenAndOcclusionSaysNothing) {
   EXPECT_EQ(look({80, 60}).state, ObservationState::occluded);
 }
 
+// At 2 m something nearer by 0.02 + 4 · √(0.006064² + σ²) hides what the last frame shows, 0.053 m; σ is 0.0057 at 1.94
+// m. The oldest frame has another texture. What the last frame shows elsewhere moves.
+TEST_F(PastReprojectionTest, WhatWasUncoveredSinceWasHiddenBefore) {
+  cv::Mat unlike(120, 160, CV_8UC1);
+  Random random(1);
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 160; ++u) unlike.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random.index(256));
+  const auto oldest = [&](double depth_there_m, const Vector2d& moved_px) {
+    const cv::Mat there = wall(depth_there_m), last = texture_.shifted(160, 120, moved_px);
+    FrameHistory history(4);
+    history.push(FrameView(unlike, DepthView::tum(there), 0.9), Pose::Identity());
+    history.push(FrameView(last, DepthView::tum(depth_), 1.0), Pose::Identity());
+    matches_.begin(std::vector<Vector2f>{{80, 60}});
+    const FrameView current(gray_, DepthView::tum(depth_), 1.1);
+    lift(current, GuardedDepth(), camera_, noise_, matches_.current);
+    past_reprojection_.choose_keyframes(history, current, Pose::Identity(), camera_, noise_, matches_, workspace_);
+    Observations observations = test::observations_of(matches_);
+    past_reprojection_.reproject_into_past(history, current, Pose::Identity(), camera_, noise_, observations);
+    return observations.matches.past_observations.frames()[1].of_feature[0].state;
+  };
+  EXPECT_EQ(oldest(1.94, {0, 0}), ObservationState::occluded);
+  EXPECT_EQ(oldest(1.95, {0, 0}), ObservationState::seen) << "no more than noise";
+  EXPECT_EQ(oldest(2.06, {0, 0}), ObservationState::seen) << "what is farther hides nothing";
+  EXPECT_EQ(oldest(1.94, {1.5, 0}), ObservationState::seen) << "it moves";
+}
+
 // A person stood at 70 px and less in the older frame: 3 px of reach (8 px of a camera of 525 px) from
 // 72, not from 74, and the depth in the place
 // of the point itself says as much as ever.
