@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+#include "stillpoint/match/static_weights.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "unit/observations_of.hpp"
+
+namespace stillpoint::static_weights_test {
+namespace {
+
+// Cells of 24 px. In the first lie two features, one of them dropped: half stood still. In the second one is kept, in
+// the third none is.
+TEST(StaticWeights, IsTheShareOfWhatStoodStill) {
+  Matches matches;
+  matches.begin(std::vector<Vector2f>{{3, 3}, {20, 20}, {30, 10}});
+  std::vector<Label> labels(3);
+  labels[1].keep = false;
+  StaticWeights weights;
+  weights.assign(test::observations_of(matches), labels, 96, 48);
+  EXPECT_FLOAT_EQ(weights.at({12, 12}), 0.5f);
+  EXPECT_FLOAT_EQ(weights.at({40, 20}), 1.0f);
+  EXPECT_FLOAT_EQ(weights.at({60, 20}), 1.0f) << "nothing is known there";
+}
+
+TEST(StaticWeights, KnowsNothingOutsideOrBeforeTheFirstFrame) {
+  StaticWeights weights;
+  EXPECT_EQ(weights.at({12, 12}), 1.0f);
+  Matches matches;
+  matches.begin(std::vector<Vector2f>{{3, 3}});
+  std::vector<Label> labels(1);
+  labels[0].keep = false;
+  weights.assign(test::observations_of(matches), labels, 96, 48);
+  EXPECT_EQ(weights.at({3, 3}), 0.0f);
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  for (const Vector2f& outside : {Vector2f(-1, 3), Vector2f(3, 50), Vector2f(1e30f, 3), Vector2f(kNaN, kNaN)})
+    EXPECT_EQ(weights.at(outside), 1.0f);
+  weights.clear();
+  EXPECT_EQ(weights.at({3, 3}), 1.0f);
+}
+
+}  // namespace
+}  // namespace stillpoint::static_weights_test
