@@ -33,6 +33,16 @@ struct Motion {
   int inliers = 0;         ///< of them, those that the motion explains
 
   bool usable() const noexcept { return judged(status); }
+
+  /// It is not known after all: what it was measured from stays.
+  void refuse(Status why) noexcept {
+    status = why;
+    warnings = {};
+    current_from_reference = Pose::Identity();
+    covariance.setZero();
+    correlation = 1;
+    inliers = 0;
+  }
 };
 
 /// What the host, an IMU or the last frame expects of the motion.
