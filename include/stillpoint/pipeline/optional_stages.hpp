@@ -103,15 +103,13 @@ void recall([[maybe_unused]] Memory& memory, const Matches& matches, Remembered&
   if constexpr (recalls<Memory>::value) memory.recall(matches, remembered, workspace);
 }
 
-/// After the motion: one that most of its matches speak against is no consensus where the matcher, which sees the whole
-/// frames, contradicts it too.
+/// After the motion: where it is in doubt, a matcher that sees the whole frames may contradict it.
 template <class Matcher, class Camera>
 void confirm([[maybe_unused]] const Matcher& matcher, [[maybe_unused]] const Camera& camera,
              [[maybe_unused]] Motion& motion) {
   if constexpr (contradicts<Matcher, Camera>::value) {
-    if (!motion.usable() || !matcher.contradicts(inverted(motion.current_from_reference), camera)) return;
-    const bool has_majority = 2 * motion.inliers >= motion.candidates;
-    if (!has_majority) motion.refuse(Status::no_consensus);
+    if (!motion.usable() || !motion.doubtful) return;
+    if (matcher.contradicts(inverted(motion.current_from_reference), camera)) motion.refuse(Status::no_consensus);
   }
 }
 

@@ -166,7 +166,8 @@ static_assert(records<RecordingPrior, DefaultPolicies::Prior> && records<Recordi
                   records<RecordingMovers, WithMovers<>::Movers>,
               "the stages of WithMovers<DefaultPolicies>");
 
-/// The numbered lines below a heading of docs/extending.md, each of which begins with `stage.member`.
+/// The numbered lines below a heading of docs/extending.md, each of which begins with `stage.member`; but what is asked
+/// only in doubt.
 Calls documented(const std::string& heading) {
   std::ifstream page(STILLPOINT_DOCUMENTS "/extending.md");
   const std::regex call("[0-9]+\\. `([a-z_]+\\.[a-z_]+)`.*");
@@ -176,7 +177,7 @@ Calls documented(const std::string& heading) {
   for (std::string line; std::getline(page, line);) {
     if (line.rfind('#', 0) == 0)
       is_below = line == heading;
-    else if (is_below && std::regex_match(line, found, call))
+    else if (is_below && std::regex_match(line, found, call) && found[1] != "matcher.contradicts")
       calls.push_back(found[1]);
   }
   return calls;
@@ -217,7 +218,7 @@ TEST_F(CallOrder, AFrameWithoutAMotionEndsAfterThePriorHasObserved) {
   EXPECT_EQ(run(2).status(), Status::no_depth);
   Calls expected;
   for (const std::string& call : of_frame_) {
-    if (call != "matcher.contradicts") expected.push_back(call);  // there is nothing to speak against
+    expected.push_back(call);
     if (call == "prior.observe") break;
   }
   EXPECT_EQ(expected.back(), "prior.observe");

@@ -306,38 +306,38 @@ struct ContradictingPolicies : mock::Policies {
   using Matcher = ContradictingMatcher;
 };
 
-// A motion is refused where the whole frames and most of its matches speak against it, and else stays.
-TEST(FrameFilterWithAMatcherThatContradicts, AMotionNeedsTheFramesOrHalfOfTheMatches) {
-  struct Case {
-    bool objects;
-    int inliers, candidates;
-    Status status;
-  };
-  for (const Case& c : {Case{true, 4, 10, Status::no_consensus}, Case{true, 5, 10, Status::ok},
-                        Case{true, 5, 11, Status::no_consensus}, Case{false, 1, 10, Status::ok}}) {
+// A motion is refused where it is in doubt and the whole frames speak against it; else it stays, and nobody is asked.
+TEST(FrameFilterWithAMatcherThatContradicts, AMotionInDoubtNeedsTheFrames) {
+  for (const auto& [is_doubtful, objects] : {std::pair{true, true}, {true, false}, {false, true}}) {
     FrameFilter<ContradictingPolicies> filter(Camera(50, 50, 31.5, 23.5, 64, 48));
     mock::Log log;
     filter.prior.log = filter.matcher.log = filter.ego_motion.log = filter.scorer.log = &log;
-    filter.matcher.objects = c.objects;
+    filter.matcher.objects = objects;
     Motion& answer = filter.ego_motion.answer;
+    answer.doubtful = is_doubtful;
     answer.current_from_reference.translation().x() = 0.5;
     answer.covariance.setIdentity();
     answer.warnings = Warning::consensus_inverted;
-    answer.inliers = c.inliers;
-    answer.candidates = c.candidates;
+    answer.inliers = 4;
+    answer.candidates = 10;
     const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(7)), depth(48, 64, CV_16UC1, cv::Scalar(10000));
     const std::vector<Vector2f> keypoints = {{5, 5}, {6, 6}};
     filter.filter_frame({gray, DepthView::tum(depth), 1.0}, keypoints);
     log.calls.clear();
     const FrameResult& result = filter.filter_frame({gray, DepthView::tum(depth), 1.1}, keypoints);
-    EXPECT_EQ(result.status(), c.status) << c.inliers << " of " << c.candidates;
-    EXPECT_EQ(filter.matcher.camera_x_m, -0.5) << "reference from current";
+    const bool is_refused = is_doubtful && objects;
+    std::vector<std::string> calls = {"prior", "match", "motion"};
+    if (is_doubtful) calls.emplace_back("matcher.contradicts");
+    if (!is_refused) calls.emplace_back("score");
+    EXPECT_EQ(log.calls, calls);
+    if (is_doubtful) {
+      EXPECT_EQ(filter.matcher.camera_x_m, -0.5) << "reference from current";
+    }
     const Motion& motion = result.motion();
-    EXPECT_EQ(motion.status, c.status);
-    EXPECT_EQ(motion.candidates, c.candidates);
-    const bool is_refused = c.status != Status::ok;
-    EXPECT_EQ(log.count("score"), is_refused ? 0u : 1u);
-    EXPECT_EQ(motion.inliers, is_refused ? 0 : c.inliers);
+    EXPECT_EQ(result.status(), is_refused ? Status::no_consensus : Status::ok);
+    EXPECT_EQ(motion.status, result.status());
+    EXPECT_EQ(motion.candidates, 10);
+    EXPECT_EQ(motion.inliers, is_refused ? 0 : 4);
     EXPECT_EQ(motion.current_from_reference.translation().x(), is_refused ? 0.0 : 0.5);
     EXPECT_EQ(motion.covariance.isZero(), is_refused);
     EXPECT_EQ(result.warnings(), is_refused ? Warnings() : Warnings(Warning::consensus_inverted));
