@@ -3,6 +3,7 @@
 
 """What Python says is what C++ says, bit for bit: on a rendered sequence, and on a recorded one."""
 
+import platform
 import subprocess
 import sys
 
@@ -140,8 +141,8 @@ def test_recorded_sequence(recorded, reference):
 
 
 def test_beside_the_program(recorded, tmp_path):
-    """The same frames against features.csv of `python -m stillpoint`. The program has a set of stages of its own, and a
-    compiler may round the last digit of that otherwise: a few verdicts near the threshold may differ."""
+    """The same frames against features.csv of `python -m stillpoint`. The program has a set of stages of its own: where
+    the processor can multiply and add at once, a compiler may round the last digit of that otherwise."""
     folder, count = recorded / "kitchen_walk", 30
     subprocess.run([sys.executable, "-m", "stillpoint", "--tum", folder, "--backend", "none", "--frames", str(count),
                     "--out", tmp_path / "out", "--quiet"], check=True, stdout=subprocess.DEVNULL)
@@ -160,4 +161,4 @@ def test_beside_the_program(recorded, tmp_path):
             other += int(cells[3]) != keep
         features += len(keypoints)
     assert next(rows, None) is None
-    assert other < 0.005 * features
+    assert other <= (0 if platform.machine() == "x86_64" else 0.005 * features)

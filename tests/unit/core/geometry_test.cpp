@@ -14,7 +14,30 @@ namespace {
 
 constexpr double kRounding = 1e-12;  // a few operations on numbers of size one
 
+Vector2f rounded_as_float(const Vector2d& pixel) { return rounded(Vector2f(pixel.cast<float>())); }
+
 Vector3d any_vector(Random& random) { return {random.gaussian(), random.gaussian(), random.gaussian()}; }
+
+TEST(Geometry, RoundedIsLround) {
+  for (const float half : {0.5f, 1.5f, 2.5f, 196.5f, 4095.5f, 4194303.5f}) {
+    for (const float x : {half, std::nextafter(half, 0.0f), std::nextafter(half, 1e9f)}) {
+      EXPECT_EQ(rounded(x), std::lround(x)) << x;
+      EXPECT_EQ(rounded(-x), std::lround(-x)) << -x;
+    }
+  }
+  for (const float x : {0.0f, -0.0f, 8388607.0f, 8388609.0f, 2147483520.0f}) EXPECT_EQ(rounded(x), std::lround(x)) << x;
+  Random random(3);
+  for (int i = 0; i < 10000; ++i) {
+    const auto x = static_cast<float>(random.uniform(-5000.0, 5000.0));
+    EXPECT_EQ(rounded(x), std::lround(x)) << x;
+  }
+}
+
+// 196.5 - 8e-7 lies within half of a float's last digit (8e-6) of 196.5, which is what it becomes.
+TEST(Geometry, RoundedTakesFloatsAsTheyAre) {
+  Vector2f (*volatile const function)(const Vector2d&) = rounded_as_float;  // compiled for any pixel
+  EXPECT_EQ(function({196.5 - 8e-7, 196.5 - 3e-5}), Vector2f(197, 196));
+}
 
 TEST(Geometry, SkewIsTheCrossProduct) {
   EXPECT_EQ(skew({1, 2, 3}) * Vector3d(4, 5, 6), Vector3d(-3, 6, -3));  // (2·6 − 3·5, 3·4 − 1·6, 1·5 − 2·4)
