@@ -172,6 +172,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       motion = ego_motion.estimate(observations_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
+    timings.run(Stage::match, [&] { confirm(matcher, camera, motion); });
     timings.run(Stage::prior, [&] { observe(prior, observations_, motion, camera); });
     if (!motion.usable()) return motion.status;
     timings.run(Stage::match,

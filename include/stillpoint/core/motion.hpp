@@ -27,12 +27,23 @@ struct Motion {
   double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
   bool metric = true;      ///< false: nobody knows the scale; the translation is a direction of length 1, or zero
   bool standing = false;   ///< the camera did not move at all: the pose is the identity, not an estimate
+  bool doubtful = false;   ///< few matches support it, and their depths differ by more than noise explains
   double pixel_sigma = 0;  ///< of the matches that support it, measured; pixels, 0 where nobody says
   double depth_noise = 1;  ///< of depths that support it, measured, over what the noise model says; 1 where nobody says
   int candidates = 0;      ///< matches that took part
   int inliers = 0;         ///< of them, those that the motion explains
 
   bool usable() const noexcept { return judged(status); }
+
+  /// It is not known after all: what it was measured from stays.
+  void refuse(Status why) noexcept {
+    status = why;
+    warnings = {};
+    current_from_reference = Pose::Identity();
+    covariance.setZero();
+    correlation = 1;
+    inliers = 0;
+  }
 };
 
 /// What the host, an IMU or the last frame expects of the motion.

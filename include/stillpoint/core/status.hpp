@@ -30,7 +30,7 @@ enum class Status : std::uint8_t {
   no_depth,             ///< no usable depth in this frame or the last, and the ego-motion needs it
   too_few_matches,      ///< fewer matches than the ego-motion needs
   degenerate_geometry,  ///< the matches do not determine a motion (one point, one line, one plane for F)
-  no_consensus,         ///< no motion explains enough of the matches
+  no_consensus,         ///< no motion explains enough of the matches, or the frames contradict it
 };
 
 constexpr std::size_t kStatusCount = static_cast<std::size_t>(Status::no_consensus) + 1;

@@ -45,6 +45,22 @@ class BlurredImage {
     blur(blur_px);
   }
 
+  /// Takes the mean around each pixel off, and divides by the standard deviation there: what stands in the shade then
+  /// says as much as a bright dress before it.
+  /// @param reach_px  pixels of this image to each side
+  void equalize_contrast(int reach_px) {
+    constexpr float kFloor = 0.15f;  // standard deviations of the whole image: a blank wall stays blank
+    if (value_.empty()) return;
+    squares_.resize(value_.size());
+    for (std::size_t i = 0; i < value_.size(); ++i) squares_[i] = value_[i] * value_[i];
+    local_mean(value_, reach_px, mean_);
+    local_mean(squares_, reach_px, squares_);
+    for (std::size_t i = 0; i < value_.size(); ++i) {
+      const float variance = std::max(squares_[i] - mean_[i] * mean_[i], 0.0f);
+      value_[i] = (value_[i] - mean_[i]) / std::sqrt(variance + kFloor * kFloor);
+    }
+  }
+
   void clear() noexcept { width_ = height_ = 0; }
   bool empty() const noexcept { return width_ == 0; }
   int width() const noexcept { return width_; }
@@ -111,9 +127,32 @@ class BlurredImage {
     }
   }
 
+  /// Means over squares of 2 reach + 1 pixels, of as much as lies within the image. May be in place.
+  void local_mean(const std::vector<float>& values, int reach_px, std::vector<float>& means) {
+    buffer_.resize(values.size());
+    means.resize(values.size());
+    const auto width = static_cast<std::size_t>(width_);
+    for (int v = 0; v < height_; ++v) running_mean(&values[index(0, v)], width_, 1, reach_px, &buffer_[index(0, v)]);
+    for (int u = 0; u < width_; ++u) running_mean(&buffer_[index(u, 0)], height_, width, reach_px, &means[index(u, 0)]);
+  }
+
+  /// The same along a line.
+  /// @param stride  from one value to the next
+  static void running_mean(const float* values, int count, std::size_t stride, int reach_px, float* means) {
+    const auto at = [stride](int i) { return static_cast<std::size_t>(i) * stride; };
+    float sum = 0;
+    for (int i = 0; i < std::min(reach_px, count); ++i) sum += values[at(i)];
+    for (int i = 0; i < count; ++i) {
+      if (i + reach_px < count) sum += values[at(i + reach_px)];
+      if (i - reach_px > 0) sum -= values[at(i - reach_px - 1)];
+      const int first = std::max(i - reach_px, 0), last = std::min(i + reach_px, count - 1);
+      means[at(i)] = sum / static_cast<float>(last - first + 1);
+    }
+  }
+
   int width_ = 0, height_ = 0;
   float scale_ = 1;
-  std::vector<float> value_, buffer_;
+  std::vector<float> value_, buffer_, mean_, squares_;
 };
 
 }  // namespace stillpoint

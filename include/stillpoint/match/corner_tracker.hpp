@@ -74,17 +74,20 @@ class CornerTracker {
     matches.resize(first + corners_.size());
     for (std::size_t c = 0; c < corners_.size(); ++c) {
       matches.current.pixel[first + c] = corners_[c];
-      const auto follow_from = [&](const Vector2f& start, std::size_t levels) {
-        if (!matches.matched(first + c))
-          follow(first + c, start, levels, start_[c].tolerance_m, current.depth, matches);
-      };
-      if (is_aligned_) follow_from(start_[c].aligned, kFinerLevels);
-      follow_from(start_[c].aligned, current_.size());
-      const bool elsewhere = (start_[c].expected - start_[c].aligned).norm() > kOtherStart_px;
-      if (elsewhere) follow_from(start_[c].expected, current_.size());
+      const Found found = find(c, current.depth);
+      if (!found.anywhere()) continue;
+      matches.reference.pixel[first + c] = found.pixel;
+      const float distance = border_distance_px(reference_[0], found.pixel);
+      matches.state[first + c] = distance < kBorder_px ? MatchState::near_edge : MatchState::matched;
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;
+  }
+
+  /// Do the frames as a whole look like another motion than this one? To be asked between `match` and `learn`.
+  template <class Camera>
+  bool contradicts(const Pose& reference_from_current, const Camera& camera) const {
+    return is_aligned_ && coarse_.cost(reference_from_current, camera) > kContradiction;
   }
 
   /// What stood still says where the coming alignment looks.
@@ -108,11 +111,20 @@ class CornerTracker {
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
   static constexpr float kOtherStart_px = 8.0f;   // a nearer second start finds what the first one finds
+  static constexpr double kContradiction = 0.6;   // cost: 0.2 in the median at true motions, 0.73 at others
 
-  /// Displacements from which the search of a corner begins, pixels: the second where the first finds nothing.
+  /// Displacements from which the search of a corner begins, pixels. The alignment may have followed people who fill
+  /// the view, and the camera may have turned where nobody expected it: the better fit counts.
   struct Start {
     Vector2f aligned = Vector2f::Zero(), expected = Vector2f::Zero();
     double tolerance_m = kSameSurface.at(0.0);  ///< by which depths on the corner's surface may differ
+  };
+
+  /// A place in the reference frame.
+  struct Found {
+    Vector2f pixel = Vector2f::Zero();
+    float dissimilarity = std::numeric_limits<float>::infinity();
+    bool anywhere() const noexcept { return dissimilarity < std::numeric_limits<float>::infinity(); }
   };
 
   static float border_distance_px(const ImageView& image, const Vector2f& pixel) noexcept {
@@ -146,12 +158,22 @@ class CornerTracker {
     refill(start_, corners_.size(), Start{});
   }
 
+  /// Where was a corner of the current frame?
+  Found find(std::size_t corner, const DepthView& depth) const {
+    const Start& start = start_[corner];
+    Found found;
+    if (is_aligned_) found = follow(corners_[corner], start.aligned, kFinerLevels, start.tolerance_m, depth);
+    if (!found.anywhere()) found = follow(corners_[corner], start.aligned, current_.size(), start.tolerance_m, depth);
+    if (!((start.expected - start.aligned).norm() > kOtherStart_px)) return found;
+    const Found other = follow(corners_[corner], start.expected, current_.size(), start.tolerance_m, depth);
+    return other.dissimilarity < found.dissimilarity ? other : found;
+  }
+
   /// @param start        displacement from which the search begins, pixels
   /// @param levels       of the pyramid, from its finest on
   /// @param tolerance_m  by which depths on the corner's surface may differ
-  void follow(std::size_t i, const Vector2f& start, std::size_t levels, double tolerance_m, const DepthView& depth,
-              Matches& matches) const {
-    const Vector2f pixel = matches.current.pixel[i];
+  Found follow(const Vector2f& pixel, const Vector2f& start, std::size_t levels, double tolerance_m,
+               const DepthView& depth) const {
     Vector2f displacement = start;
     Patch patch;
     PatchFit fit;
@@ -166,12 +188,9 @@ class CornerTracker {
       fit = find_patch(patch, reference_[level], cut + displacement / scale, search);
       if (fit.inside && (level == 0 || fit.dissimilarity < kTooVague)) displacement += fit.offset * scale;
     }
-    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < kFewestPixels) return;
+    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < kFewestPixels) return {};
     const Vector2f found = pixel + displacement;
-    const float distance = border_distance_px(reference_[0], found);
-    if (!(distance >= 0.0f)) return;
-    matches.reference.pixel[i] = found;
-    matches.state[i] = distance < kBorder_px ? MatchState::near_edge : MatchState::matched;
+    return border_distance_px(reference_[0], found) >= 0.0f ? Found{found, fit.dissimilarity} : Found{};
   }
 
   Pyramid reference_, current_;

@@ -31,6 +31,12 @@ struct PatchMatcher {
     corners.match(reference, current, matches);
   }
 
+  /// After the motion: do the frames as a whole look like another one?
+  template <class Camera>
+  bool contradicts(const Pose& reference_from_current, const Camera& camera) const {
+    return corners.contradicts(reference_from_current, camera);
+  }
+
   /// Fills `matches.past_observations` with frames and surfaces.
   template <class Camera, class Noise>
   void choose_keyframes(const FrameHistory& history, const FrameView& current, const Pose& filter_from_expected,

@@ -33,6 +33,10 @@ template <class P, class Camera, class Noise> struct aligns<P, Camera, Noise, st
     std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<const Pose&>(),
     std::declval<const Camera&>(), std::declval<const Noise&>()))>> : std::true_type {};
 
+template <class P, class Camera, class = void> struct contradicts : std::false_type {};
+template <class P, class Camera> struct contradicts<P, Camera, std::void_t<decltype(static_cast<bool>(
+    std::declval<const P&>().contradicts(std::declval<const Pose&>(), std::declval<const Camera&>())))>> : std::true_type {};
+
 template <class P, class Camera, class = void> struct refines : std::false_type {};
 template <class P, class Camera> struct refines<P, Camera, std::void_t<decltype(std::declval<P&>().refine(
     std::declval<Observations&>(), std::declval<const Camera&>(), std::declval<const MotionPrior&>(),
@@ -97,6 +101,16 @@ void recall([[maybe_unused]] Memory& memory, const Matches& matches, Remembered&
             [[maybe_unused]] Workspace& workspace) {
   remembered.begin(matches);
   if constexpr (recalls<Memory>::value) memory.recall(matches, remembered, workspace);
+}
+
+/// After the motion: where it is in doubt, a matcher that sees the whole frames may contradict it.
+template <class Matcher, class Camera>
+void confirm([[maybe_unused]] const Matcher& matcher, [[maybe_unused]] const Camera& camera,
+             [[maybe_unused]] Motion& motion) {
+  if constexpr (contradicts<Matcher, Camera>::value) {
+    if (!motion.usable() || !motion.doubtful) return;
+    if (matcher.contradicts(inverted(motion.current_from_reference), camera)) motion.refuse(Status::no_consensus);
+  }
 }
 
 /// When the motion is known, be it usable or not: the prior may carry its regions along.

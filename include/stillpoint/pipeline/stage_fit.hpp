@@ -34,6 +34,7 @@ namespace detail {
   struct has_##NAME<T, false> : std::false_type {}
 
 STILLPOINT_HAS_NAME(align);
+STILLPOINT_HAS_NAME(contradicts);
 STILLPOINT_HAS_NAME(choose_keyframes);
 STILLPOINT_HAS_NAME(reproject_into_past);
 STILLPOINT_HAS_NAME(refine);
@@ -134,6 +135,9 @@ struct OptionalMembers {
   static_assert(aligns<Matcher, Camera, Noise>::value || !detail::has_align<Matcher>::value,
       "stillpoint: Policies::Matcher has a member align, but not Pose align(const FrameView& reference, const FrameView& "
       "current, const Pose&, const Camera&, const DepthNoise&); see docs/extending.md");
+  static_assert(contradicts<Matcher, Camera>::value || !detail::has_contradicts<Matcher>::value,
+      "stillpoint: Policies::Matcher has a member contradicts, but not bool contradicts(const Pose&, const Camera&) const; "
+      "see docs/extending.md");
   static_assert(reprojects_into_past<Matcher, Camera, Noise>::value ||
       !(detail::has_choose_keyframes<Matcher>::value || detail::has_reproject_into_past<Matcher>::value),
       "stillpoint: Policies::Matcher must offer both or neither of void choose_keyframes(const FrameHistory&, const "

@@ -59,6 +59,35 @@ class CoarseAlignmentTest : public testing::Test {
     return sum / count;
   }
 
+  static constexpr int kImageWidth = 640, kShift_px = 24;
+
+  /// The first frame, of which a patch went to the right.
+  void shift_patch(int left, int width, Image& image) {
+    render(0, image);
+    const cv::Mat as_it_was = as_mat(image.frame.gray.view());
+    cv::Mat shifted = as_it_was.clone();
+    as_it_was.colRange(left, left + width).copyTo(shifted.colRange(left + kShift_px, left + kShift_px + width));
+    image.pyramid.build(ImageView(shifted), 4);
+  }
+
+  /// What lies between two columns of the reference frame is trusted this much, and dropped where not at all.
+  void trust(int left, int right, float much) {
+    const Camera& camera = sequence_.camera();
+    std::vector<Vector2f> pixels;
+    for (int v = 12; v < camera.height(); v += 24)
+      for (int u = 12; u < camera.width(); u += 24) pixels.emplace_back(static_cast<float>(u), static_cast<float>(v));
+    Matches matches;
+    matches.begin(pixels);
+    Observations observations = test::observations_of(matches);
+    std::vector<Label> labels(pixels.size());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const bool is_between = pixels[i].x() >= static_cast<float>(left) && pixels[i].x() < static_cast<float>(right);
+      labels[i].keep = !is_between || much > 0;
+      if (is_between) observations.remembered.trust[i] = much;
+    }
+    alignment_.reference_weights.assign(observations, labels, camera.width(), camera.height());
+  }
+
   SyntheticSequence sequence_{synthetic::pure_rotation()};
   CoarseAlignment alignment_;
 };
@@ -112,24 +141,61 @@ TEST_F(CoarseAlignmentTest, WhatIsExpectedStaysWhereNothingIsBetter) {
 TEST_F(CoarseAlignmentTest, WhatMovesHasNoSay) {
   Image reference, current;
   render(0, reference);
-  render(0, current);
-  cv::Mat image = as_mat(current.frame.gray.view()).clone();
-  const int left = image.cols / 4, width = 2 * image.cols / 5, shift = 24;
-  as_mat(reference.frame.gray.view())
-      .colRange(left, left + width)
-      .copyTo(image.colRange(left + shift, left + shift + width));
-  current.pyramid.build(ImageView(image), 4);
-  Matches matches;
-  std::vector<Vector2f> pixels;
-  for (int v = 12; v < image.rows; v += 24)
-    for (int u = 12; u < image.cols; u += 24) pixels.emplace_back(static_cast<float>(u), static_cast<float>(v));
-  matches.begin(pixels);
-  std::vector<Label> labels(pixels.size());
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    labels[i].keep =
-        !(pixels[i].x() >= static_cast<float>(left) && pixels[i].x() < static_cast<float>(left + width + shift));
-  alignment_.reference_weights.assign(test::observations_of(matches), labels, image.cols, image.rows);
+  const int left = kImageWidth / 4, width = 2 * kImageWidth / 5;
+  shift_patch(left, width, current);
+  trust(left, left + width + kShift_px, 0.0f);
   EXPECT_LT(error_px(reference, current, Pose::Identity()), 1.0);
+}
+
+// A patch of 70 % of the width, of which half is believed to stand, has a weight of 0.7 / 2 and the room's 0.3. Squared
+// it is 0.7 / 4: the room wins.
+TEST_F(CoarseAlignmentTest, AreaDoesNotMakeUpForTrust) {
+  Image reference, current;
+  render(0, reference);
+  const int left = kImageWidth / 8, width = 7 * kImageWidth / 10;
+  shift_patch(left, width, current);
+  EXPECT_GT(error_px(reference, current, Pose::Identity()), 0.5 * kShift_px) << "else the test asks nothing";
+  trust(left, left + width + kShift_px, 0.5f);
+  EXPECT_LT(error_px(reference, current, Pose::Identity()), 1.0);
+}
+
+// The cost at the truth, at a motion that puts everything some 50 px beside it, and where nothing can be compared.
+TEST_F(CoarseAlignmentTest, TheCostTellsTheTruthFromAnother) {
+  EXPECT_EQ(alignment_.cost(Pose::Identity(), sequence_.camera()), 0.0) << "no frame yet";
+  for (int first = 0; first + 6 < 120; first += 15) {
+    Image reference, current;
+    render(first, reference);
+    render(first + 6, current);
+    error_px(reference, current, Pose::Identity());
+    const Pose motion = truth(reference, current);
+    EXPECT_LT(alignment_.cost(motion, sequence_.camera()), 0.4) << first;
+    const Pose wrong = motion * make_pose(rotation_from_vector(Vector3d(0.1, 0, 0)), Vector3d::Zero());
+    EXPECT_GT(alignment_.cost(wrong, sequence_.camera()), 0.6) << first;
+    const FrameView view = current.frame.view();
+    const cv::Mat nothing = cv::Mat::zeros(view.gray.height, view.gray.width, CV_16UC1);
+    alignment_.align(DepthView(nothing, 5000.0), view.gray, motion, sequence_.camera());
+    EXPECT_EQ(alignment_.cost(wrong, sequence_.camera()), 0.0) << "no depth";
+  }
+}
+
+// Two fifths of the room's contrast are left, and before it a patch of full contrast went 24 px to the right. It
+// covers two fifths of the width: the room, which is larger, has not moved, and says so although it is dim.
+TEST_F(CoarseAlignmentTest, ADimRoomOutvotesABrightPatch) {
+  Image reference, current;
+  render(0, reference);
+  render(0, current);
+  const cv::Mat bright = as_mat(current.frame.gray.view()).clone();
+  const int left = kImageWidth / 4, width = kImageWidth / 3;
+  const cv::Mat patch = bright.colRange(left, left + width);
+  const auto dim_with_patch_at = [&](int column) {
+    cv::Mat image = bright * 0.4 + cv::Scalar(60);
+    patch.copyTo(image.colRange(column, column + width));
+    return image;
+  };
+  const cv::Mat before = dim_with_patch_at(left), after = dim_with_patch_at(left + kShift_px);
+  reference.pyramid.build(ImageView(before), 4);
+  current.pyramid.build(ImageView(after), 4);
+  EXPECT_LT(error_px(reference, current, Pose::Identity()), 2.0);
 }
 
 }  // namespace

@@ -6,12 +6,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/pipeline/policy_traits.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
@@ -147,6 +150,44 @@ TEST(CornerTracker, AReferenceIsRecognisedByItsTime) {
   corners.reset();
   const Matches same_time = follow(corners, at_9, 1.3, at_0, 1.4);
   EXPECT_GE(followed_by(same_time, {9, 0}), same_time.size() / 2) << "after reset() a time stamp says nothing";
+}
+
+// Tiles that repeat every 20 px, with a little texture of their own, hang behind a curtain that fills two thirds of the
+// view and was drawn 20 px to the right: the alignment follows the curtain, and from there each tile finds the one
+// beside it. Where the camera is expected at rest, the tiles are looked for there as well, and fit better.
+TEST(CornerTracker, WhereTheAlignmentIsWrongTheExpectedPlaceFitsBetter) {
+  constexpr int kPeriod_px = 20, kCurtain = 2 * kWidth / 3;
+  const test::WaveTexture of_tiles(8), of_curtain(9);
+  const auto tiles = [&](const Vector2d& p) -> double {
+    const double phase = 6.2831853 / kPeriod_px;
+    return 100.0 + 40.0 * std::sin(phase * p.x()) * std::sin(phase * p.y()) + 0.1 * (of_tiles.at(p) - 128.0);
+  };
+  const auto frame = [&](int drawn_px) {
+    cv::Mat image = of_curtain.shifted(kWidth, kHeight, {static_cast<double>(drawn_px), 0});
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = kCurtain; u < kWidth; ++u)
+        image.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(tiles({u, v}));
+    return image;
+  };
+  const cv::Mat before = frame(0), now = frame(kPeriod_px), depth(kHeight, kWidth, CV_16UC1, cv::Scalar(10000));
+  const FrameView reference(before, DepthView::tum(depth), 1.0), current(now, DepthView::tum(depth), 1.1);
+  const Camera camera(260, 260, 159.5, 119.5, kWidth, kHeight);
+  CornerTracker corners = tracker();
+  const Pose found = corners.align(reference, current, Pose::Identity(), camera, KinectNoise());
+  const Vector3d ahead(0, 0, 2.0);
+  EXPECT_NEAR(camera.project(found * ahead).x() - camera.project(ahead).x(), -kPeriod_px, 6)
+      << "it follows the curtain";
+  Matches matches;
+  matches.begin(span<const Vector2f>());
+  corners.match(reference, current, matches);
+  std::size_t on_tiles = 0, right = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!(matches.current.pixel[i].x() > kCurtain + 12) || !matches.matched(i)) continue;
+    ++on_tiles;
+    right += (matches.reference.pixel[i] - matches.current.pixel[i]).norm() < 0.5f;
+  }
+  EXPECT_GE(on_tiles, 30u);
+  EXPECT_GE(right, on_tiles * 9 / 10);
 }
 
 TEST(CornerTracker, TinyAndFlatImagesHaveNoCorners) {

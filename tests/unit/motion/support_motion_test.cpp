@@ -228,6 +228,35 @@ TEST(SupportMotion, TheMeasuredNoiseIsHeldWithinLimits) {
   EXPECT_EQ(estimate(Matches()).pixel_sigma, 0.0) << "nobody says";
 }
 
+// Of 20 matches so many are wrong, each in its own way: up to 40 px and 0.3 to 1.5 m. Six right ones of 20 are a
+// consensus, but the depths of most differ by more than any noise. Where most are right nothing is in doubt, nor where
+// the noise is not measured.
+TEST(SupportMotion, AFewMatchesAmongManyWrongOnesAreInDoubt) {
+  const auto doubtful = [](std::size_t wrong_of_20, bool measures_noise, std::uint64_t seed) {
+    Random random(seed);
+    Matches matches = scene_of(kMotion, seed, 0.3);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (i % 20 >= wrong_of_20) continue;
+      FrameFeatures& reference = matches.reference;
+      reference.undistorted[i] += Vector2d(random.uniform(-40.0, 40.0), random.uniform(-40.0, 40.0));
+      reference.pixel[i] = reference.undistorted[i].cast<float>();
+      reference.set_depth(i, reference.depth_m[i] + random.uniform(0.3, 1.5), 1e-3, test::test_camera());
+    }
+    SupportMotion motion = policy();
+    motion.measures_noise = measures_noise;
+    const Motion found = estimate(matches, MotionPrior{kMotion}, motion);
+    EXPECT_EQ(found.status, Status::ok);
+    return found.doubtful;
+  };
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    EXPECT_TRUE(doubtful(14, true, seed)) << seed;
+    EXPECT_FALSE(doubtful(11, true, seed)) << seed << ": most depths are wrong, but nine of 20 explain enough";
+    EXPECT_FALSE(doubtful(8, true, seed)) << seed;
+    EXPECT_FALSE(doubtful(0, true, seed)) << seed;
+    EXPECT_FALSE(doubtful(14, false, seed)) << seed;
+  }
+}
+
 // 60 % move by 6 cm on top: many pixels, and not noise of the camera.
 TEST(SupportMotion, TheNoiseIsOfWhatIsTrusted) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {

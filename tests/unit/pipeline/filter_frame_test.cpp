@@ -290,6 +290,64 @@ TEST(FrameFilterWithAPriorThatObserves, ItIsToldOfEachMotionAndIsResetWithTheRes
   EXPECT_EQ(log.count("prior.reset"), 2u);
 }
 
+/// A matcher that sees whole frames.
+struct ContradictingMatcher : mock::Matcher {
+  bool objects = false;
+  mutable double camera_x_m = 0;
+
+  template <class Camera>
+  bool contradicts(const Pose& reference_from_current, const Camera&) const {
+    note("matcher.contradicts");
+    camera_x_m = reference_from_current.translation().x();
+    return objects;
+  }
+};
+struct ContradictingPolicies : mock::Policies {
+  using Matcher = ContradictingMatcher;
+};
+
+// A motion is refused where it is in doubt and the whole frames speak against it; else it stays, and nobody is asked.
+TEST(FrameFilterWithAMatcherThatContradicts, AMotionInDoubtNeedsTheFrames) {
+  for (const auto& [is_doubtful, objects] : {std::pair{true, true}, {true, false}, {false, true}}) {
+    FrameFilter<ContradictingPolicies> filter(Camera(50, 50, 31.5, 23.5, 64, 48));
+    mock::Log log;
+    filter.prior.log = filter.matcher.log = filter.ego_motion.log = filter.scorer.log = &log;
+    filter.matcher.objects = objects;
+    Motion& answer = filter.ego_motion.answer;
+    answer.doubtful = is_doubtful;
+    answer.current_from_reference.translation().x() = 0.5;
+    answer.covariance.setIdentity();
+    answer.warnings = Warning::consensus_inverted;
+    answer.inliers = 4;
+    answer.candidates = 10;
+    const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(7)), depth(48, 64, CV_16UC1, cv::Scalar(10000));
+    const std::vector<Vector2f> keypoints = {{5, 5}, {6, 6}};
+    filter.filter_frame({gray, DepthView::tum(depth), 1.0}, keypoints);
+    log.calls.clear();
+    const FrameResult& result = filter.filter_frame({gray, DepthView::tum(depth), 1.1}, keypoints);
+    const bool is_refused = is_doubtful && objects;
+    std::vector<std::string> calls = {"prior", "match", "motion"};
+    if (is_doubtful) calls.emplace_back("matcher.contradicts");
+    if (!is_refused) calls.emplace_back("score");
+    EXPECT_EQ(log.calls, calls);
+    if (is_doubtful) {
+      EXPECT_EQ(filter.matcher.camera_x_m, -0.5) << "reference from current";
+    }
+    const Motion& motion = result.motion();
+    EXPECT_EQ(result.status(), is_refused ? Status::no_consensus : Status::ok);
+    EXPECT_EQ(motion.status, result.status());
+    EXPECT_EQ(motion.candidates, 10);
+    EXPECT_EQ(motion.inliers, is_refused ? 0 : 4);
+    EXPECT_EQ(motion.current_from_reference.translation().x(), is_refused ? 0.0 : 0.5);
+    EXPECT_EQ(motion.covariance.isZero(), is_refused);
+    EXPECT_EQ(result.warnings(), is_refused ? Warnings() : Warnings(Warning::consensus_inverted));
+    log.calls.clear();
+    answer.status = Status::no_consensus;
+    filter.filter_frame({gray, DepthView::tum(depth), 1.2}, keypoints);
+    EXPECT_EQ(log.count("matcher.contradicts"), 0u) << "there is no motion to speak against";
+  }
+}
+
 TEST_F(FrameFilterTest, ColourBecomesGray) {
   cv::Mat colour(48, 64, CV_8UC3, cv::Scalar(200, 100, 50)), expected;
   cv::cvtColor(colour, expected, cv::COLOR_BGR2GRAY);

@@ -93,10 +93,10 @@ class SupportMotion {
     const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
 
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
-    const bool explained =
-        problem.point_support(chosen.reference_from_current) > kLeastSupport * problem.total_weight();
-    if (!explained || !any_depth(matches)) return motion;
+    const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
+    if (!(explained > kLeastSupport) || !any_depth(matches)) return motion;
     motion.status = Status::ok;
+    motion.doubtful = noise.depth_scale >= kMostDepthNoise && explained < kSureSupport;
     if (is_inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
     motion.current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
@@ -141,6 +141,7 @@ class SupportMotion {
   static constexpr double kConfidence = 0.9996;    // of not missing what explains more than the past
   static constexpr double kSameMotion_px = 1.0;    // hypotheses that move the matches less apart on average are one
   static constexpr double kLeastSupport = 0.08;    // share of all weight that the motion must explain
+  static constexpr double kSureSupport = 0.4;      // less is doubtful where depths do not fit near what is expected
   static constexpr double kUndisputedLoss = 12.6;  // squared sigmas that suspects in full may cost the trusted
   static constexpr double kCreepGain = 60.0;       // squared sigmas by which a motion must beat standing still
   static constexpr double kLeastPixelSigma =
