@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Robust statistics over spans.
+// Robust statistics over spans, and means that forget.
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +31,11 @@ Scalar quantile_in_place(span<Scalar> values, double q) {
   Scalar* const nth = values.begin() + std::min(index, values.size() - 1);
   std::nth_element(values.begin(), nth, values.end());
   return *nth;
+}
+
+/// The share of a new value in a mean that forgets with a time constant: 1 − exp(−Δt / τ), for steps of any length.
+inline double exponential_share(double elapsed_s, double time_constant_s) noexcept {
+  return 1.0 - std::exp(-elapsed_s / time_constant_s);
 }
 
 }  // namespace stillpoint

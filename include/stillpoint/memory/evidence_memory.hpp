@@ -17,6 +17,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/memory/neighbour_steps.hpp"
@@ -86,7 +87,7 @@ class EvidenceMemory {
     dynamic_.clear();
     const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
     const auto gain = [&matches](double rise_s) {
-      return static_cast<float>(1.0 - std::exp(-matches.elapsed_s / rise_s));
+      return static_cast<float>(exponential_share(matches.elapsed_s, rise_s));
     };
     const float suspicion_gain = gain(options.suspicion_rise_s), certainty_gain = gain(kCertaintyRise_s);
     const auto watched = [certainty_gain](Memory memory) {

@@ -37,7 +37,8 @@ class ObjectIdentity {
     const double place = apart.cwiseMax(0.0).norm() / near_m;
     if (!(place < 1.0)) return std::numeric_limits<double>::infinity();
     const double sigma_m_s = std::sqrt(object.linear.covariance().trace() / 3.0);  // grows while nothing is measured
-    const double motion = (velocity - object.linear.velocity()).norm() / (limbs_m_s(object) + sigma_m_s);
+    const double motion =
+        (velocity - object.linear.velocity()).norm() / (limb_speed_m_s(fastest_m_s(object)) + sigma_m_s);
     const double look = static_cast<double>(appearance.distance(object.appearance)) / kAlike;
     return place * place + motion * motion + look * look;
   }
@@ -105,15 +106,17 @@ class ObjectIdentity {
  private:
   static constexpr double kLimb_m = 0.5;  // from a body to what is seen of its limbs
 
-  /// Legs stand, and swing at twice the speed of the body.
-  static double limbs_m_s(const TrackedObject& object) {
-    return 0.3 + 0.8 * std::max(object.mean_speed(), object.linear.velocity().norm());
+  static double fastest_m_s(const TrackedObject& object) {
+    return std::max(object.mean_speed(), object.linear.velocity().norm());
   }
+
+  /// Against the body: legs stand, and swing at twice its speed.
+  static double limb_speed_m_s(double body_speed_m_s) { return 0.3 + 0.8 * body_speed_m_s; }
 
   /// How fast a part moves against a body, in units of what limbs do: they stand, or swing at up to two and a half
   /// times the speed of the body, and its way.
   static double swing(const TrackedObject& limb, const TrackedObject& body) {
-    const double speed = body.mean_speed(), forward_m_s = 0.3 + 1.5 * speed, other_m_s = 0.3 + 0.8 * speed;
+    const double speed = body.mean_speed(), forward_m_s = 0.3 + 1.5 * speed, other_m_s = limb_speed_m_s(speed);
     const Vector3d apart = limb.mean_velocity - body.mean_velocity;
     const double along = speed > 0 ? apart.dot(body.mean_velocity) / speed : 0.0;
     const double across = std::sqrt(std::max(0.0, apart.squaredNorm() - along * along));

@@ -13,6 +13,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/movers/appearance.hpp"
@@ -69,11 +70,9 @@ class ObjectUpdate {
   static constexpr double kCorrelation = 4.0;     // neighbouring points share errors: covariances are too small by this
   static constexpr double kRigid = 0.82;          // mean share of points in one rigid motion from which on it is one
 
-  static double share_of(double elapsed_s, double memory_s) { return 1.0 - std::exp(-elapsed_s / memory_s); }
-
   /// Of a mean over `kMean_s` that is the plain mean as long as there are few frames.
   static double mean_share(const TrackedObject& object, double elapsed_s) {
-    return std::max(share_of(elapsed_s, kMean_s), 1.0 / (1.0 + object.seen_frames));
+    return std::max(exponential_share(elapsed_s, kMean_s), 1.0 / (1.0 + object.seen_frames));
   }
 
   /// The last bit of an object that is seen beside what covers it is measured badly: it goes on as it went on average,
@@ -92,7 +91,7 @@ class ObjectUpdate {
     if (!shifted) return;  // as predicted
     const std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
     const double inlier_share = turned ? turned->inlier_share : 0.0;
-    object.rigid_share += share_of(elapsed_s, kMean_s) * (inlier_share - object.rigid_share);
+    object.rigid_share += exponential_share(elapsed_s, kMean_s) * (inlier_share - object.rigid_share);
     object.fit_share += mean_share(object, elapsed_s) * (inlier_share - object.fit_share);
     if (turned) {
       observe_turn(object, *turned, elapsed_s);
@@ -112,8 +111,8 @@ class ObjectUpdate {
     const Matrix3d covariance = kCorrelation * shifted->covariance.bottomRightCorner<3, 3>();
     object.linear.correct(velocity, covariance / (elapsed_s * elapsed_s));
     const double of_few = 1.0 / object.seen_frames;  // the plain mean, as long as there are few frames
-    object.mean_velocity += std::max(share_of(elapsed_s, kMean_s), of_few) * (velocity - object.mean_velocity);
-    object.long_velocity += std::max(share_of(elapsed_s, kLong_s), of_few) * (velocity - object.long_velocity);
+    object.mean_velocity += std::max(exponential_share(elapsed_s, kMean_s), of_few) * (velocity - object.mean_velocity);
+    object.long_velocity += std::max(exponential_share(elapsed_s, kLong_s), of_few) * (velocity - object.long_velocity);
     object.path += step;
     object.path_covariance += covariance;
   }
@@ -151,7 +150,7 @@ class ObjectUpdate {
     constexpr double kMemory_s = 1.0;  // a step
     const std::optional<double> left = ObjectMotionEstimator::bending_sq(pairs, turned, elapsed_s),
                                 turn = ObjectMotionEstimator::bending_sq(pairs, shifted, elapsed_s);
-    const double share = share_of(elapsed_s, kMemory_s);
+    const double share = exponential_share(elapsed_s, kMemory_s);
     if (left) object.bending_sq += share * (*left - object.bending_sq);
     if (turn) object.bending_with_turn_sq += share * (*turn - object.bending_with_turn_sq);
   }

@@ -4,10 +4,10 @@
 
 // How fast has the camera moved of late?
 
-#include <cmath>
 #include <optional>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/statistics.hpp"
 
 namespace stillpoint {
 
@@ -19,7 +19,7 @@ class MeanVelocity {
 
   /// @param elapsed_s  within which the camera moved so, positive
   void add(const Pose& current_from_reference, double elapsed_s) {
-    const double share = known_ ? 1.0 - std::exp(-elapsed_s / kMemory_s) : 1.0;
+    const double share = known_ ? exponential_share(elapsed_s, kMemory_s) : 1.0;
     angular_rad_s_ += share * (vector_from_rotation(rotation_of(current_from_reference)) / elapsed_s - angular_rad_s_);
     linear_m_s_ += share * (translation_of(current_from_reference) / elapsed_s - linear_m_s_);
     known_ = is_finite(angular_rad_s_) && is_finite(linear_m_s_);

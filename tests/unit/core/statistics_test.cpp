@@ -59,5 +59,12 @@ TEST(Statistics, MadToSigmaFitsTheNormalDistribution) {
   EXPECT_NEAR(kMadToSigma * median(deviations), 0.3, 5 * 0.3 * 1.7 / std::sqrt(100001.0));
 }
 
+TEST(Statistics, ExponentialShareIsTheSameForOneStepAndForMany) {
+  EXPECT_EQ(exponential_share(0.0, 2.0), 0.0);
+  EXPECT_NEAR(exponential_share(2.0 * std::log(2.0), 2.0), 0.5, 1e-15);  // a half after τ ln 2
+  // What one step of 0.3 s leaves of the old mean, three of 0.1 s leave too.
+  EXPECT_NEAR(1.0 - exponential_share(0.3, 0.7), std::pow(1.0 - exponential_share(0.1, 0.7), 3), 1e-15);
+}
+
 }  // namespace
 }  // namespace stillpoint
