@@ -70,9 +70,9 @@ class ObjectUpdate {
   static constexpr double kCorrelation = 4.0;     // neighbouring points share errors: covariances are too small by this
   static constexpr double kRigid = 0.82;          // mean share of points in one rigid motion from which on it is one
 
-  /// Of a mean over `kMean_s` that is the plain mean as long as there are few frames.
-  static double mean_share(const TrackedObject& object, double elapsed_s) {
-    return std::max(exponential_share(elapsed_s, kMean_s), 1.0 / (1.0 + object.seen_frames));
+  /// Of the newest of `count` values, in a mean that forgets and is the plain mean as long as they are few.
+  static double mean_share(double elapsed_s, double memory_s, int count) {
+    return std::max(exponential_share(elapsed_s, memory_s), 1.0 / count);
   }
 
   /// The last bit of an object that is seen beside what covers it is measured badly: it goes on as it went on average,
@@ -92,7 +92,7 @@ class ObjectUpdate {
     const std::optional<ObjectMotion> turned = ObjectMotionEstimator::rigid(pairs, shifted->moved);
     const double inlier_share = turned ? turned->inlier_share : 0.0;
     object.rigid_share += exponential_share(elapsed_s, kMean_s) * (inlier_share - object.rigid_share);
-    object.fit_share += mean_share(object, elapsed_s) * (inlier_share - object.fit_share);
+    object.fit_share += mean_share(elapsed_s, kMean_s, 1 + object.seen_frames) * (inlier_share - object.fit_share);
     if (turned) {
       observe_turn(object, *turned, elapsed_s);
       observe_bending(object, pairs, shifted->moved, turned->moved, elapsed_s);
@@ -110,9 +110,8 @@ class ObjectUpdate {
     const Vector3d step = mover.centroid - inverted(moved) * mover.centroid, velocity = step / elapsed_s;
     const Matrix3d covariance = kCorrelation * shifted->covariance.bottomRightCorner<3, 3>();
     object.linear.correct(velocity, covariance / (elapsed_s * elapsed_s));
-    const double of_few = 1.0 / object.seen_frames;  // the plain mean, as long as there are few frames
-    object.mean_velocity += std::max(exponential_share(elapsed_s, kMean_s), of_few) * (velocity - object.mean_velocity);
-    object.long_velocity += std::max(exponential_share(elapsed_s, kLong_s), of_few) * (velocity - object.long_velocity);
+    object.mean_velocity += mean_share(elapsed_s, kMean_s, object.seen_frames) * (velocity - object.mean_velocity);
+    object.long_velocity += mean_share(elapsed_s, kLong_s, object.seen_frames) * (velocity - object.long_velocity);
     object.path += step;
     object.path_covariance += covariance;
   }
@@ -135,7 +134,7 @@ class ObjectUpdate {
     const Vector3d turn = vector_from_rotation(turned.moved.linear()) / elapsed_s;
     const Matrix3d covariance = kCorrelation / (elapsed_s * elapsed_s) * turned.covariance.topLeftCorner<3, 3>();
     object.angular.correct(turn, covariance);
-    const double share = mean_share(object, elapsed_s);
+    const double share = mean_share(elapsed_s, kMean_s, 1 + object.seen_frames);
     object.mean_turn += share * (turn - object.mean_turn);
     object.mean_turn_covariance += share * (share * covariance - (2.0 - share) * object.mean_turn_covariance);
     const Cholesky<3> factors(object.mean_turn_covariance);
