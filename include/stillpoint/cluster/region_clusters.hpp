@@ -26,7 +26,7 @@ namespace stillpoint {
 /// Features without a score are `unknown`: kept outside dynamic boxes, dropped inside (the paper leaves it open).
 class RegionClusters {
  public:
-  using Needs = Capabilities<capability::metric_depth>;
+  using Needs = Capabilities<capability::metric_depth, capability::whole_boxes>;
   using Provides = Capabilities<capability::verdicts>;
 
   struct Options {

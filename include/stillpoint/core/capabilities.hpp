@@ -19,6 +19,7 @@ namespace stillpoint {
 namespace capability {
 
 struct metric_depth {};       ///< of a depth lookup: features have depths in metres
+struct whole_boxes {};        ///< of a prior: a region is all of its box, not only what is as deep as its middle
 struct matches {};            ///< of a matcher: features or corners of its own, found in the reference frame
 struct feature_matches {};    ///< of a matcher: the host's features, found in the reference frame
 struct past_observations {};  ///< of a matcher: the host's features, looked for in older frames

@@ -62,6 +62,14 @@ constexpr bool is_met(Need<Stage, DepthLookup, capability::metric_depth>) {
   return true;
 }
 
+template <class Stage, class Prior>
+constexpr bool is_met(Need<Stage, Prior, capability::whole_boxes>) {
+  static_assert(meets<Stage, Prior, capability::whole_boxes>,
+      "stillpoint: this Stage tests only what lies in boxes, and this Prior cuts them by depth, so that half of a person "
+      "would be missed: take BoxPrior, or SurfaceClusters; see docs/extending.md");
+  return true;
+}
+
 template <class Stage, class Matcher>
 constexpr bool is_met(Need<Stage, Matcher, capability::matches>) {
   static_assert(meets<Stage, Matcher, capability::matches>,
@@ -179,6 +187,7 @@ using NeedsOf = NeedList<
     Need<typename P::Scorer, typename P::DepthLookup, capability::metric_depth>,
     Need<typename P::Classifier, typename P::DepthLookup, capability::metric_depth>,
     Need<MoversOf<P>, typename P::DepthLookup, capability::metric_depth>,
+    Need<typename P::Classifier, typename P::Prior, capability::whole_boxes>,
     Need<typename P::EgoMotion, typename P::Matcher, capability::matches>,
     Need<MoversOf<P>, typename P::Matcher, capability::matches>,
     Need<typename P::Scorer, typename P::Matcher, capability::feature_matches>,

@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
@@ -15,9 +16,12 @@
 namespace stillpoint {
 
 /// Detections of the coming frame, each with the depth of its object: what is much nearer or farther is something else
-/// seen past it.
+/// seen past it. Arms and legs of who walks are outside as well: such regions shift odds, and are too small for a
+/// classifier that tests nothing else.
 class ForegroundPrior : public BoxPrior {
  public:
+  using Provides = Capabilities<>;
+
   void regions(const FrameView& frame, Regions& regions) const {
     BoxPrior::regions(frame, regions);
     if (frame.depth.empty()) return;

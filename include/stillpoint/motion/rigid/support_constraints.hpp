@@ -93,7 +93,7 @@ struct SupportConstraints {
         const double sigma_m =
             depth_sigma_m(cell.depth_sigma_m, observation.depth_sigma_m) * std::abs(cell.normal.z()) + kDepthFloor_m;
         plane.slope = rotation_of(frames[f].reference_from_current) * cell.normal / sigma_m;
-        plane.memoryless_weight = surface_weight;
+        plane.unsuspected_weight = surface_weight;
         plane.weight = surface_weight * static_cast<double>(observations.remembered.surface_trust[s]);
         plane.frame = f;
       }
@@ -111,10 +111,16 @@ struct SupportConstraints {
     return depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m);
   }
 
-  void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const noexcept {
+  /// What moves by the log-odds of the last frames says less at once: a box that creeps is found long before it is
+  /// suspect, and would pull the motion along until then. Nor is it taken for parked.
+  void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const {
     const Membership& region = observations.regions.of_feature[i];
-    point.memoryless_weight = region.in_dynamic ? dynamic_trust : region.in_movable ? kMovableTrust : 1.0;
-    point.weight = point.memoryless_weight * static_cast<double>(observations.remembered.trust[i]);
+    const double by_region = region.in_dynamic ? dynamic_trust : region.in_movable ? kMovableTrust : 1.0;
+    const auto log_odds = static_cast<double>(observations.remembered.log_odds[i]);
+    const bool moves = log_odds > 0;
+    const double stands = moves ? 2.0 / (1.0 + std::exp(log_odds)) : 1.0;  // its probability over that at even odds
+    point.weight = by_region * stands * static_cast<double>(observations.remembered.trust[i]);
+    point.unsuspected_weight = moves ? point.weight : by_region;
   }
 
   PointConstraint at_depth(const Observations& observations, std::size_t i, const Vector2d& pixel, double seen_depth_m,

@@ -45,10 +45,10 @@ class SupportProblem {
 
   span<const PointConstraint> points() const noexcept { return points_; }
 
-  /// To the weights as if nothing were suspect; a second call goes back.
+  /// To the weights as if what moved once stood now; a second call goes back.
   void swap_trust() noexcept {
-    for (PointConstraint& point : points_) std::swap(point.weight, point.memoryless_weight);
-    for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.memoryless_weight);
+    for (PointConstraint& point : points_) std::swap(point.weight, point.unsuspected_weight);
+    for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.unsuspected_weight);
   }
 
   /// Measures the noise of the trusted points, from the medians of their residuals, and sets it for all. Of those that
