@@ -80,6 +80,7 @@ class MoverTracking {
     for (std::size_t o = 0; o < objects_.size(); ++o) {
       ObjectUpdate::run(objects_[o], static_cast<std::int32_t>(o), features, options.fewest_features, workspace);
     }
+    take_lost_limbs_back(features.object_of);
     confirm(features.object_of, frame.timestamp_s);
     forget(features.object_of, frame.timestamp_s);
     if (gives_back) ObjectHypothesis::run(objects_, features, followed, labels, workspace);
@@ -151,6 +152,13 @@ class MoverTracking {
     object.mover.first_seen_s = object.mover.last_seen_s = timestamp_s;
     object.linear.correct(group.velocity, kSigma_m_s * kSigma_m_s * Matrix3d::Identity());
     return static_cast<std::int32_t>(objects_.size() - 1);
+  }
+
+  void take_lost_limbs_back(span<std::int32_t> object_of) {
+    for (std::size_t o = objects_.size(); o-- > 0;) {
+      const std::int32_t body = ObjectIdentity::body_of_lost(objects_, o);
+      if (body != kNone) ObjectIdentity::unite(objects_, static_cast<std::size_t>(body), o, object_of);
+    }
   }
 
   /// Reports new objects, the largest first. One that proves to be an object that is known gets no identifier.

@@ -78,6 +78,17 @@ class ObjectIdentity {
     });
   }
 
+  /// Which object that is seen is the body of a lost one, which hung on it and swung as a limb does? It needs no
+  /// identity any more: it would take what comes out from behind something for its own, where that is the body's.
+  static std::int32_t body_of_lost(const std::vector<TrackedObject>& objects, std::size_t lost) {
+    if (objects[lost].is_seen) return kNone;
+    const auto body = std::find_if(objects.begin(), objects.end(), [&](const TrackedObject& object) {
+      return object.is_confirmed && object.is_seen && object.members > objects[lost].members &&
+             are_limb_and_body(objects[lost], object) && swing(objects[lost], object) < 1.0;
+    });
+    return body == objects.end() ? kNone : static_cast<std::int32_t>(body - objects.begin());
+  }
+
   /// By size and place, is the one a limb of the other? What joins them need not have features, but a limb is smaller
   /// than its body: a person of whom little is seen is as large as remembered.
   static bool are_limb_and_body(const TrackedObject& one, const TrackedObject& other) {
