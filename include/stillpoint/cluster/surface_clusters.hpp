@@ -34,7 +34,7 @@ class SurfaceClusters {
   struct Options {
     std::size_t features_per_cluster = 30;
     float own_share = 0.5f;      ///< of a feature's own score in its log-odds; the rest is its cluster's mean
-    float dynamic_shift = 2.4f;  ///< what a dynamic region adds to the log-odds, nats
+    float dynamic_shift = 2.0f;  ///< what a dynamic region adds to the log-odds, nats
   };
   Options options;
 
