@@ -113,7 +113,7 @@ struct SupportConstraints {
 
   /// What moves by the log-odds of the last frames says less at once: a box that creeps is found long before it is
   /// suspect, and would pull the motion along until then. Nor is it taken for parked.
-  void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const {
+  void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const noexcept {
     const Membership& region = observations.regions.of_feature[i];
     const double by_region = region.in_dynamic ? dynamic_trust : region.in_movable ? kMovableTrust : 1.0;
     const auto log_odds = static_cast<double>(observations.remembered.log_odds[i]);
