@@ -53,10 +53,10 @@ struct StationaryCamera {
   }
 
  private:
-  static constexpr double kRest_px = 0.3;         // a corner that moved less is at rest
-  static constexpr double kBeginsShare = 0.9;     // of the weight of all corners that is at rest when a camera stops
-  static constexpr double kMajorityShare = 0.5;   // while it is stationary, so much is enough …
-  static constexpr double kContinuesShare = 0.1;  // … or so much, if it lies behind the rest
+  static constexpr double kRest_px = 0.3;          // a corner that moved less is at rest
+  static constexpr double kBeginsShare = 0.9;      // of the weight of all corners that is at rest when a camera stops
+  static constexpr double kMajorityShare = 0.5;    // while it is stationary, so much is enough …
+  static constexpr double kContinuesShare = 0.05;  // … or so much, if it lies behind the rest
 
   struct Group {
     double weight = 0;
