@@ -79,12 +79,14 @@ class ObjectIdentity {
   }
 
   /// Which object that is seen is the body of a lost one, which hung on it and swung as a limb does? It needs no
-  /// identity any more: it would take what comes out from behind something for its own, where that is the body's.
+  /// identity any more: it would take what comes out from behind something for its own, where that is the body's. Where
+  /// it is lost, who passes before it is near, too: only what touches is a limb.
   static std::int32_t body_of_lost(const std::vector<TrackedObject>& objects, std::size_t lost) {
     if (objects[lost].is_seen) return kNone;
     const auto body = std::find_if(objects.begin(), objects.end(), [&](const TrackedObject& object) {
       return object.is_confirmed && object.is_seen && object.members > objects[lost].members &&
-             are_limb_and_body(objects[lost], object) && swing(objects[lost], object) < 1.0;
+             are_limb_and_body(objects[lost], object) && gap_m(objects[lost], object) < kTouch_m &&
+             swing(objects[lost], object) < 1.0;
     });
     return body == objects.end() ? kNone : static_cast<std::int32_t>(body - objects.begin());
   }
@@ -115,7 +117,8 @@ class ObjectIdentity {
   }
 
  private:
-  static constexpr double kLimb_m = 0.5;  // from a body to what is seen of its limbs
+  static constexpr double kLimb_m = 0.5;   // from a body to what is seen of its limbs
+  static constexpr double kTouch_m = 0.1;  // the same for a limb that is not seen any more
 
   static double fastest_m_s(const TrackedObject& object) {
     return std::max(object.mean_speed(), object.linear.velocity().norm());
