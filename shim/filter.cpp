@@ -116,7 +116,6 @@ class Engine {
     return *result_;
   }
 
-  /// 16-bit depth, and nobody has said in which units?
   void copy_weights(float* weights, std::size_t size) const {
     std::vector<float> of_feature(size, 1.0f);
     if (result_ != nullptr && result_->size() == size) stillpoint::weights(*result_, of_feature);
@@ -134,7 +133,6 @@ class Engine {
     copy_mask(pixels);
   }
 
-  /// The last frame has no answer: weights and mask keep all of it.
   /// All is kept.
   void fill(const Pixels& pixels) const noexcept {
     for (int v = 0; v < filter_.camera.height(); ++v)

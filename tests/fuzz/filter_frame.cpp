@@ -4,9 +4,11 @@
 // The default filter on a sequence of small frames: any keypoints, depths, times, boxes, poses, cameras, in any order.
 // One program with shim.cpp and the shim itself, compiled as one file: the filter takes long to compile.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
@@ -85,7 +87,16 @@ void set_boxes(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
     filter.prior.detections = detections;
 }
 
-void filter_one(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
+/// How many frames were judged: inputs of which none is say nothing of the stages.
+struct Judged {
+  std::size_t frames = 0, judged = 0;
+  ~Judged() { std::fprintf(stderr, "judged: %zu of %zu frames\n", judged, frames); }
+};
+Judged judged_frames;
+
+/// @param depth_factor  units per metre of a 16-bit depth
+/// @return              how many keypoints it had
+std::size_t filter_one(Bytes& bytes, double timestamp_s, double depth_factor, FrameFilter<>& filter) {
   int width = filter.camera.width(), height = filter.camera.height();
   if (bytes.integer(0, 15) == 0) width = bytes.integer(1, 48);
   const cv::Mat gray = make_gray(bytes, width, height), depth = make_depth(bytes, width, height);
@@ -94,8 +105,11 @@ void filter_one(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
   for (int v = 0; v < height; v += step)
     for (int u = 0; u < width; u += step) keypoints.emplace_back(static_cast<float>(u), static_cast<float>(v));
   for (int i = bytes.integer(0, 9); i > 0; --i) keypoints.emplace_back(bytes.single(-2, 50), bytes.single(-2, 50));
-  const FrameResult& result = filter.filter_frame(FrameView(gray, DepthView(depth), timestamp_s), keypoints);
+  const FrameResult& result =
+      filter.filter_frame(FrameView(gray, DepthView(depth, depth_factor), timestamp_s), keypoints);
 
+  ++judged_frames.frames;
+  judged_frames.judged += judged(result.status());
   require(result.size() == keypoints.size());
   require(result.motion().current_from_reference.matrix().allFinite());
   std::size_t kept = 0;
@@ -104,6 +118,9 @@ void filter_one(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
     require(std::isfinite(result.label(i).log_odds) && std::isfinite(result.depth_m(i)));
   }
   require(kept == result.kept_count());
+  ImageBuffer mask;
+  result.mask(mask, 5);
+  return keypoints.size();
 }
 
 /// Draws one option in eight within its range: an end, or anything between, small values more often.
@@ -155,8 +172,10 @@ void run_filter(Bytes& bytes) {
   FrameFilter<> filter(make_camera(bytes));
   ImageBuffer mask;
   double timestamp_s = 1.0;
+  std::vector<std::uint8_t> is_dynamic;
   for (int frame = 0; frame < kMostFrames && !bytes.empty(); ++frame) {
     const int before = bytes.byte();
+    double depth_factor = 5000.0;
     if (before < 16) filter.camera = make_camera(bytes);
     if (before >= 16 && before < 32) set_options(bytes, filter);
     if (before >= 32 && before < 48) filter.expect_motion(make_pose(bytes));
@@ -164,8 +183,13 @@ void run_filter(Bytes& bytes) {
     if (before >= 64 && before < 96) set_boxes(bytes, timestamp_s, filter);
     if (before >= 96 && before < 112) filter.predicted_keep_mask(bytes.number(0, 2), bytes.integer(-3, 60), mask);
     if (before >= 112 && before < 120) filter.reset();
+    if (before >= 120 && before < 126) depth_factor = bytes.number(-1, 6000);
+    if (before >= 126 && before < 134) {
+      std::generate(is_dynamic.begin(), is_dynamic.end(), [&] { return static_cast<std::uint8_t>(bytes.flag()); });
+      filter.expect_dynamic(is_dynamic);
+    }
     timestamp_s = before < 248 ? timestamp_s + 1.0 / 32 : bytes.number(0, 3);
-    filter_one(bytes, timestamp_s, filter);
+    is_dynamic.resize(filter_one(bytes, timestamp_s, depth_factor, filter));
   }
 }
 

@@ -29,6 +29,8 @@ for target in "${targets[@]}"; do
   # One process for all of them; where one fails, its name is the last that was printed.
   "$program" "${limits[@]}" tests/fuzz/corpus/"$target"/* > "$found/replay.log" 2>&1 ||
     { tail -n 40 "$found/replay.log"; failed+=("$target"); continue; }
+  ! grep '^judged: 0 of' "$found/replay.log" ||
+    { echo "the corpus of $target reaches no stage"; failed+=("$target"); continue; }
   ((seconds > 0)) || continue
   echo "--- $target: $seconds s of fuzzing"
   "$program" "${limits[@]}" -seed="${SEED:-0}" -max_total_time="$seconds" -print_final_stats=1 "$grown" tests/fuzz/corpus/"$target" \

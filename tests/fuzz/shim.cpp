@@ -33,6 +33,7 @@ shim::Filter make_shim(Bytes& bytes, int width, int height) {
   settings.stereo_baseline_m = bytes.number(0, 1);
   settings.false_positive_rate = bytes.number(1e-6, 0.5);
   settings.fewest_features = bytes.integer(-1, 2000);
+  settings.depth_factor = settings.fewest_features % 8 == 0 ? bytes.number(-1, 6000) : 5000.0;
   return shim::Filter(camera, settings);
 }
 

@@ -259,6 +259,8 @@ class PastReprojection {
   }
 };
 
+using LookBack [[deprecated("PastReprojection")]] = PastReprojection;  ///< its name in 0.1; gone in 0.3
+
 template <class Visit>
 void each_option(PastReprojection& stage, Visit& visit) {
   visit("slowest_m_s", stage.options.slowest_m_s, OptionRange{1e-3, 100});

@@ -136,6 +136,8 @@ class ReprojectionScore {
   }
 };
 
+using SightingScore [[deprecated("ReprojectionScore")]] = ReprojectionScore;  ///< its name in 0.1; gone in 0.3
+
 template <class Visit>
 void each_option(ReprojectionScore& stage, Visit& visit) {
   visit("pixel_sigma", stage.options.pixel_sigma, OptionRange{0.01, 100});

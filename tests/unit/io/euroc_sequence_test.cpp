@@ -136,6 +136,23 @@ TEST_F(EurocSequenceTest, MissingFilesAreNamed) {
   EXPECT_EQ(message(), path("mav0/cam1/sensor.yaml") + ": no such file");
 }
 
+// One of the left camera's ten images is missing: a tenth. It takes its pair along.
+TEST_F(EurocSequenceTest, LeavesOutWhatIsMissingUpToATenth) {
+  std::string rows = "#timestamp [ns],filename\n";
+  for (int i = 0; i < 10; ++i) {
+    const std::string name = std::to_string(1000 + i) + ".png";
+    rows += std::to_string(1000 + i) + "," + name + "\n";
+    for (const char* camera : {"cam0", "cam1"})
+      if (i != 4 || camera[3] == '1') image(std::string("mav0/") + camera + "/data/" + name, i);
+  }
+  folder.write("mav0/cam0/data.csv", rows);
+  folder.write("mav0/cam1/data.csv", rows);
+  const EurocSequence sequence(folder.path());
+  EXPECT_EQ(sequence.frames().size(), 9u);
+  EXPECT_EQ(sequence.missing_files(), 1u);
+  EXPECT_EQ(sequence.load(4).left.at<cv::Vec3b>(0, 0)[0], 5) << "the fourth is left out";
+}
+
 TEST_F(EurocSequenceTest, RowsThatMakeNoSenseAreNamed) {
   const std::string file = path("mav0/cam0/data.csv");
   const auto message_of = [&](const std::string& text) {

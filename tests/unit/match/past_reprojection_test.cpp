@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "stillpoint/depth/depth_noise.hpp"
@@ -396,6 +397,11 @@ TEST(PastReprojectionInARoom, WhatMovesIsElsewhereOrLooksDifferent) {
   EXPECT_GE(moving_objects, moving * 9 / 10) << moving_objects << " of " << moving;
   EXPECT_LE(standing_objects, standing / 10) << standing_objects << " of " << standing;
 }
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::is_same_v<LookBack, PastReprojection>, "the name of 0.1");
+#pragma GCC diagnostic pop
 
 }  // namespace
 }  // namespace stillpoint

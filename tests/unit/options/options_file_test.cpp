@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "stillpoint/policies.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 #include "unit/error_of.hpp"
 #include "unit/temporary_folder.hpp"
 
@@ -65,7 +66,8 @@ struct Change {
 
 template <class Policies>
 class OptionsOf : public testing::Test {};
-using PolicySets = testing::Types<DefaultPolicies, PaperPolicies, PaperRigidPolicies, MonocularPolicies>;
+using PolicySets =
+    testing::Types<DefaultPolicies, PaperPolicies, PaperRigidPolicies, MonocularPolicies, WithMovers<DefaultPolicies>>;
 TYPED_TEST_SUITE(OptionsOf, PolicySets);
 
 TYPED_TEST(OptionsOf, EveryOptionSurvivesItsFile) {
@@ -149,6 +151,7 @@ TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(SurfaceClusters()), field_count<SurfaceClusters::Options>());
   EXPECT_EQ(visited(EvidenceMemory()), field_count<EvidenceMemory::Options>());
   EXPECT_EQ(visited(KeepFloor()), field_count<KeepFloor::Options>());
+  EXPECT_EQ(visited(MoverTracking()), field_count<MoverTracking::Options>());
 }
 
 TEST_F(OptionsFile, OptionsThatAreNotNamedStay) {

@@ -97,7 +97,9 @@ TEST_F(DefaultFilter, ImagesOnePixelWideOrHigh) {
       keypoints.emplace_back(static_cast<float>(i % width), static_cast<float>(i % height));
     for (int f = 0; f < 4; ++f) {
       cv::randu(gray, 0, 255);
-      expect_sound(filter.filter_frame(FrameView(gray, DepthView(depth), 0.1 * f), keypoints), keypoints.size());
+      const FrameResult& result = filter.filter_frame(FrameView(gray, DepthView::tum(depth), 0.1 * f), keypoints);
+      expect_sound(result, keypoints.size());
+      EXPECT_NE(result.status(), Status::depth_unit_missing) << "then no stage runs";
     }
   }
 }

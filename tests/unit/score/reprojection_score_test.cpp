@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -211,6 +212,11 @@ TEST_F(ReprojectionScoreTest, ObservationsAreComparedWhereTheMotionPutsThem) {
   }
   EXPECT_NEAR(score(), -2.5f, kRounding);
 }
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::is_same_v<SightingScore, ReprojectionScore>, "the name of 0.1");
+#pragma GCC diagnostic pop
 
 }  // namespace
 }  // namespace stillpoint::reprojection_score_test
