@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#include "stillpoint/pipeline/use_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/image.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/status.hpp"
+#include "stillpoint/core/warnings.hpp"
+
+namespace stillpoint::use_check_test {
+namespace {
+
+/// Frames without keypoints, with a depth of 2 m everywhere.
+class UseCheckTest : public testing::Test {
+ protected:
+  UseCheckTest() {
+    gray_.resize(64, 48, PixelFormat::gray8);
+    depth_.resize(64, 48, PixelFormat::depth32f);
+    for (int v = 0; v < 48; ++v) {
+      std::fill_n(gray_.row<std::uint8_t>(v), 64, std::uint8_t{100});
+      std::fill_n(depth_.row<float>(v), 64, 2.0f);
+    }
+  }
+
+  void observe(int frames, Status status, double step_m = 0.0, bool with_depth = true) {
+    Motion motion;
+    motion.metric = true;
+    motion.current_from_reference.translation().z() = step_m;
+    const FrameView frame(gray_.view(), with_depth ? DepthView(depth_.view()) : DepthView(), 0.0);
+    for (int i = 0; i < frames; ++i) check_.observe(status, frame, {}, {}, motion);
+  }
+  bool warns(Warning warning) const { return check_.warnings().has(warning); }
+
+  UseCheck check_;
+  ImageBuffer gray_, depth_;
+};
+
+TEST_F(UseCheckTest, MetresFromFrameToFrameAreSaidAfterTwentyFrames) {
+  observe(19, Status::ok, 2.1);
+  EXPECT_FALSE(warns(Warning::motion_too_fast));
+  observe(1, Status::ok, 2.1);
+  EXPECT_TRUE(warns(Warning::motion_too_fast));
+  observe(1, Status::ok, 0.1);
+  EXPECT_FALSE(warns(Warning::motion_too_fast)) << "one usual step takes two of them back";
+}
+
+TEST_F(UseCheckTest, ACarMayMoveByTwoMetresAndWithoutDepthNothingIsMetres) {
+  observe(30, Status::ok, 1.9);
+  EXPECT_FALSE(warns(Warning::motion_too_fast));
+  observe(30, Status::ok, 5.0, false);
+  EXPECT_FALSE(warns(Warning::motion_too_fast));
+}
+
+TEST_F(UseCheckTest, FramesThatCannotBeJudgedAreSaidAfterTwenty) {
+  observe(19, Status::no_consensus);
+  EXPECT_FALSE(warns(Warning::nothing_fits));
+  observe(1, Status::too_few_matches);
+  EXPECT_TRUE(warns(Warning::nothing_fits));
+}
+
+TEST_F(UseCheckTest, FramesWithoutKeypointsOrThatAreRefusedSayNothing) {
+  observe(30, Status::no_keypoints);
+  observe(30, Status::first_frame);
+  observe(30, Status::size_changed);
+  EXPECT_FALSE(warns(Warning::nothing_fits));
+}
+
+}  // namespace
+}  // namespace stillpoint::use_check_test
