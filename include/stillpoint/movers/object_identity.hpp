@@ -85,17 +85,16 @@ class ObjectIdentity {
     if (objects[lost].is_seen) return kNone;
     const auto body = std::find_if(objects.begin(), objects.end(), [&](const TrackedObject& object) {
       return object.is_confirmed && object.is_seen && object.members > objects[lost].members &&
-             are_limb_and_body(objects[lost], object) && gap_m(objects[lost], object) < kTouch_m &&
-             swing(objects[lost], object) < 1.0;
+             are_limb_and_body(objects[lost], object, kTouch_m) && swing(objects[lost], object) < 1.0;
     });
     return body == objects.end() ? kNone : static_cast<std::int32_t>(body - objects.begin());
   }
 
   /// By size and place, is the one a limb of the other? What joins them need not have features, but a limb is smaller
   /// than its body: a person of whom little is seen is as large as remembered.
-  static bool are_limb_and_body(const TrackedObject& one, const TrackedObject& other) {
+  static bool are_limb_and_body(const TrackedObject& one, const TrackedObject& other, double reach_m = kLimb_m) {
     const TrackedObject &limb = one.members < other.members ? one : other, &body = &limb == &one ? other : one;
-    return is_small(limb, body) && 2 * limb.size_m.norm() < body.size_m.norm() && gap_m(limb, body) < kLimb_m;
+    return is_small(limb, body) && 2 * limb.size_m.norm() < body.size_m.norm() && gap_m(limb, body) < reach_m;
   }
 
   /// Two objects are one, under the identity of `known`; where it is lost or has fewer features, `part` says where it
