@@ -112,7 +112,7 @@ void print(const std::vector<Row>& rows) {
     std::printf("| %s | %s | %zu | %s | %s | %s | %s | %s | %s | %s |\n", row.folder.filename().string().c_str(),
                 row.condition.name.c_str(), row.outcomes.size(),
                 cell(of_filter(&Outcome::recall_percent), &Spread::mean, 3, 0.01).c_str(),
-                cell(of_filter(&Outcome::false_alarms_percent), &Spread::mean, 4, 0.01).c_str(),
+                cell(of_filter(&Outcome::false_positives_percent), &Spread::mean, 4, 0.01).c_str(),
                 cell(of_filter(&Outcome::p95_mm), &Spread::mean, 1).c_str(),
                 cell(of_filter(&Outcome::p95_deg), &Spread::mean, 2).c_str(),
                 cell(filtered, &Spread::median, 4).c_str(),

@@ -22,7 +22,7 @@ namespace stillpoint::bench {
 
 /// What a method did to a sequence; empty where there is nothing to count.
 struct Outcome {
-  std::optional<double> recall_percent, false_alarms_percent;
+  std::optional<double> recall_percent, false_positives_percent;
   std::optional<double> p95_mm, p95_deg;  ///< of the motions that were claimed
 };
 
@@ -47,7 +47,7 @@ class Tally {
     const auto percent = [](const std::optional<double>& share) {
       return share ? std::optional(100 * *share) : std::nullopt;
     };
-    return {percent(score_.recall()), percent(score_.false_alarms()), percentile_95(error_mm_),
+    return {percent(score_.recall()), percent(score_.false_positive_rate()), percentile_95(error_mm_),
             percentile_95(error_deg_)};
   }
 

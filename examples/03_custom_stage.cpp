@@ -81,7 +81,7 @@ void run(const char* name, const stillpoint::synthetic::Scene& scene, Filter& fi
     hint = result.hint();
   }
   std::printf("%-22s recall %.3f, false-positive rate %.4f %s\n", name, score.recall().value_or(0.0),
-              score.false_alarms().value_or(0.0), hint);
+              score.false_positive_rate().value_or(0.0), hint);
 }
 
 }  // namespace

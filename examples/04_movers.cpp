@@ -16,9 +16,7 @@ int main() {
   stillpoint::SyntheticSequence sequence(stillpoint::synthetic::crossing_people());
   stillpoint::SyntheticFrame frame;
   const auto orb = cv::ORB::create(1000);
-  // [movers]
   stillpoint::FrameFilter<stillpoint::WithMovers<>> filter(sequence.camera());
-  // [movers]
   for (int i = 0; i < 60; ++i) {
     sequence.render(i, frame);
     std::vector<cv::KeyPoint> keypoints;
@@ -30,11 +28,11 @@ int main() {
       person.class_index = 0;
       filter.prior.detections.push_back(person);
     }
-    // [movers]
-    for (const stillpoint::Mover& mover : filter.filter_frame(frame.view(), keypoints).movers())
+    const stillpoint::FrameResult& result = filter.filter_frame(frame.view(), keypoints);
+    for (const stillpoint::Mover& mover : result.movers())
       std::printf("frame %d: %s %u: %.1f m ahead, %.1f m/s to the %s (%s)\n", i,
                   mover.class_index == 0 ? "person" : "object", mover.id, mover.centroid.z(), mover.velocity.norm(),
                   mover.velocity.x() < 0 ? "left" : "right", to_string(mover.state));
-    // [movers]
+    if (*result.hint() != '\0') std::printf("frame %d: %s\n", i, result.hint());
   }
 }

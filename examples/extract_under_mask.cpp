@@ -25,6 +25,7 @@ void run(const stillpoint::TumSequence& sequence, bool is_under_mask) {
   stillpoint::FrameFilter<> filter(sequence.camera());
   stillpoint::ImageBuffer mask;
   stillpoint::FilterScore score;
+  const char* hint = "";
   for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
     const stillpoint::RgbdImages images = sequence.load(i);
     const double timestamp_s = sequence.frames()[i].timestamp_s;
@@ -35,6 +36,7 @@ void run(const stillpoint::TumSequence& sequence, bool is_under_mask) {
     orb->detect(gray, keypoints, is_under_mask ? stillpoint::as_mat(mask.view()) : cv::Mat());
     const stillpoint::DepthView depth(images.depth, sequence.depth_factor());
     const stillpoint::FrameResult& result = filter.filter_frame({gray, depth, timestamp_s}, keypoints);
+    hint = result.hint();
     std::vector<stillpoint::Vector2f> pixels;
     for (const cv::KeyPoint& keypoint : keypoints) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
     score.add_frame(sequence.load_labels(i), pixels, result.keep());
@@ -43,10 +45,10 @@ void run(const stillpoint::TumSequence& sequence, bool is_under_mask) {
     return static_cast<double>(count) / static_cast<double>(sequence.frames().size());
   };
   const stillpoint::DropCount moving = score.moving(), background = score.background();
-  std::printf("  %-11s  standing: %5.1f found, %5.1f kept   moving: %5.1f found, %5.1f kept\n",
+  std::printf("  %-11s  static: %5.1f found, %5.1f kept   moving: %5.1f found, %5.1f kept %s\n",
               is_under_mask ? "under mask" : "anywhere", a_frame(background.features),
               a_frame(background.features - background.dropped), a_frame(moving.features),
-              a_frame(moving.features - moving.dropped));
+              a_frame(moving.features - moving.dropped), hint);
 }
 
 }  // namespace

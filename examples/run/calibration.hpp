@@ -69,7 +69,7 @@ void take_over(const stillpoint::CalibratedNoise& noise, stillpoint::FrameFilter
 ///         not stand still.
 inline CalibrationRecord calibrate(const Options& options, FrameSource& source) {
   constexpr std::size_t kFewestFrames = 30;
-  constexpr double kMostDropped = 0.1;  // ten times the rate that standing features are dropped with
+  constexpr double kMostDropped = 0.1;  // ten times the rate that static features are dropped with
   auto filter = detail::default_filter<CalibratingPolicies>(options, source);
   stillpoint::NoiseCalibration calibration;
   filter.prior.calibration = &calibration;

@@ -93,7 +93,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
     motion.measures_noise = false;
     filter.gate.gain = 0.0;
   }
-  if (without("standing-camera")) motion.standing.is_enabled = false;
+  if (without("standing-camera")) motion.stationary_camera.is_enabled = false;
   if (without("past-hypothesis")) motion.past_preference = std::numeric_limits<double>::infinity();
   if (without("inertia")) motion.inertia.acceleration_m_s2 = 0.0;
   if (without("clusters")) {
@@ -108,7 +108,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   }
   if (without("older-frames")) filter.matcher.older.options.longest_s = 0.0;
   if (without("lost-features")) {
-    constexpr double kOfLook = 0.5;  // of the score that 1 % of the standing features of static_room exceed
+    constexpr double kOfLook = 0.5;  // of the score that 1 % of the static features of static_room exceed
     filter.scorer.options.most_from_look = 0.0;
     filter.scorer.expected_patch -= kOfLook;
   }

@@ -39,7 +39,7 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
   if (const auto recall = run.labels.recall())
     html += tile("moving features dropped", percent_words(*recall),
                  "recall, of " + std::to_string(run.labels.moving().features) + " features");
-  if (const auto alarms = run.labels.false_alarms())
+  if (const auto alarms = run.labels.false_positive_rate())
     html += tile("background dropped", percent_words(*alarms),
                  "false positives, of " + std::to_string(run.labels.background().features) + " features");
   if (figures.kept_share)

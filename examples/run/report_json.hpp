@@ -35,13 +35,13 @@ inline nlohmann::ordered_json labels_json(const RunRecord& run) {
   const stillpoint::FilterScore& score = run.labels;
   const auto count = [&run](std::size_t features) { return run.has_labels ? std::optional(features) : std::nullopt; };
   return {{"recall", or_null(score.recall())},
-          {"false_alarms", or_null(score.false_alarms())},
+          {"false_alarms", or_null(score.false_positive_rate())},
           {"moving", or_null(count(score.moving().features))},
           {"background", or_null(count(score.background().features))},
           {"parked_dropped", or_null(score.parked_dropped())},
           {"predicted_mask",
            {{"recall", or_null(run.predicted_mask.recall())},
-            {"false_alarms", or_null(run.predicted_mask.false_alarms())}}}};
+            {"false_alarms", or_null(run.predicted_mask.false_positive_rate())}}}};
 }
 
 /// Frames: offered = skipped + replaced + detected + failed.

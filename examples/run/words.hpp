@@ -52,13 +52,13 @@ inline std::string trajectory_words(const RunRecord& run, const Figures& figures
 }
 
 inline std::string label_words(const RunRecord& run) {
-  const auto recall = run.labels.recall(), false_alarms = run.labels.false_alarms();
-  if (!recall && !false_alarms) return "";
+  const auto recall = run.labels.recall(), false_positives = run.labels.false_positive_rate();
+  if (!recall && !false_positives) return "";
   std::string words;
   if (recall) words += "Of the features on moving objects it dropped " + percent_words(*recall);
-  if (false_alarms)
+  if (false_positives)
     words += (recall ? ", of those on the background " : "Of the features on the background it dropped ") +
-             percent_words(*false_alarms);
+             percent_words(*false_positives);
   return words + '.';
 }
 

@@ -158,7 +158,7 @@ void bind_evaluation(py::module_& module) {
                                       "How well verdicts agree with labels; None where nothing was counted.")
       .def_property_readonly("recall", &stillpoint::FilterScore::recall,
                              "Share of the moving features that were dropped.")
-      .def_property_readonly("false_positive_rate", &stillpoint::FilterScore::false_alarms,
+      .def_property_readonly("false_positive_rate", &stillpoint::FilterScore::false_positive_rate,
                              "Share of the background's features that were dropped.")
       .def_property_readonly("parked_dropped", &stillpoint::FilterScore::parked_dropped,
                              "Share of the features on movers at rest that were dropped.")

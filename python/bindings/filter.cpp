@@ -163,7 +163,15 @@ void bind_result(py::module_& module) {
           "6 x 6, of a small rotation (radians, first three) and translation (metres) after the pose.")
       .def_readonly("reference_timestamp_s", &Motion::reference_timestamp_s)
       .def_readonly("metric", &Motion::metric, "False: the translation has no scale.")
-      .def_readonly("standing", &Motion::standing, "The camera did not move at all.")
+      .def_readonly("stationary", &Motion::stationary, "The camera did not move at all.")
+      .def_property_readonly(
+          "standing",
+          [](const Motion& motion) {
+            if (PyErr_WarnEx(PyExc_DeprecationWarning, "Motion.standing is Motion.stationary; gone in 0.4", 1) != 0)
+              throw py::error_already_set();
+            return motion.stationary;
+          },
+          "Deprecated: `stationary`.")
       .def_readonly("candidates", &Motion::candidates, "Matches that took part.")
       .def_readonly("inliers", &Motion::inliers, "Of them, those that the motion explains.");
 

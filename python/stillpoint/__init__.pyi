@@ -126,8 +126,11 @@ class Motion:
     def metric(self) -> bool:
         """False: the translation has no scale."""
     @property
-    def standing(self) -> bool:
+    def stationary(self) -> bool:
         """The camera did not move at all."""
+    @property
+    def standing(self) -> bool:
+        """Deprecated: `stationary`."""
     @property
     def candidates(self) -> int:
         """Matches that took part."""

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
 
-# cmake -P first_error.cmake -- COMMAND...: runs a compiler and prints its first error as one line `first error: ...`, and how many
-# there were.
+# cmake [-DNAMES=STAGE,OTHER] -P first_error.cmake -- COMMAND...: runs a compiler and prints its first error as one line
+# `first error: ...`, and how many there were. With NAMES one line beside it must name both stages.
 
 math(EXPR last "${CMAKE_ARGC} - 1")
 set(command "")
@@ -21,6 +21,11 @@ if(status EQUAL 0)
   message("it compiles")
 elseif(output MATCHES "error: ([^\n]*)")
   set(first "${CMAKE_MATCH_1}")
+  string(REPLACE "," ", [^\n<>]*" both "${NAMES}")
+  if(NAMES AND NOT output MATCHES "meets<[^\n<>]*${both}")
+    message("no line names both of ${NAMES}:\n${output}")
+    return()
+  endif()
   string(REGEX MATCHALL "error: " errors "${output}")
   list(LENGTH errors count)
   message("first error: ${first}\nerrors: ${count}")

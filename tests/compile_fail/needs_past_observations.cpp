@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A scorer of older frames behind a matcher that looks into one: it would find nothing, without a word.
+// names: ReprojectionScore,TwoFrames
 // expected: stillpoint: this Stage needs the features in older frames, where this Matcher does not look: take PatchMatcher or ProvidedMatches, or a stage that needs two frames (OffsetScore, SampsonScore); see docs/extending.md
 
 #include "sound_policies.hpp"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A classifier that leaves the decision to a memory, and no memory: every feature would be kept.
+// names: NoMemory,Undecided
 // expected: stillpoint: this Stage leaves the decision to the classifier, and this Classifier leaves it to the memory: take EvidenceMemory, or RegionClusters; see docs/extending.md
 
 #include "sound_policies.hpp"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // A prior that cuts boxes by depth, and a classifier that tests nothing outside them: half of a person is missed.
+// names: RegionClusters,ForegroundPrior
 // expected: stillpoint: this Stage tests only what lies in boxes, and this Prior cuts them by depth, so that half of a person would be missed: take BoxPrior, or SurfaceClusters; see docs/extending.md
 
 #include "sound_policies.hpp"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 
 # Configures project/ afresh in BUILD, builds it and runs its programs. WAY: how it gets the library; COMPONENT: which
-# target it links. For `core` OpenCV is hidden.
+# target it links; STANDARD: of C++, if not the compiler's own. For `core` OpenCV is hidden.
 
 file(REMOVE_RECURSE "${BUILD}")
 set(arguments "-DWAY=${WAY}" "-DCOMPONENT=${COMPONENT}" "-DLIBRARY=${LIBRARY}"
@@ -27,6 +27,9 @@ if(COMPONENT STREQUAL "compiled")  # as the library was
 endif()
 if(COMPONENT STREQUAL "onnxruntime")
   list(APPEND arguments "-DONNXRUNTIME_ROOT=${ONNXRUNTIME_ROOT}")
+endif()
+if(STANDARD)
+  list(APPEND arguments "-DCMAKE_CXX_STANDARD=${STANDARD}" -DCMAKE_CXX_STANDARD_REQUIRED=ON -DCMAKE_CXX_EXTENSIONS=OFF)
 endif()
 unset(ENV{CMAKE_BUILD_TYPE})
 

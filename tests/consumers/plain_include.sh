@@ -4,8 +4,8 @@
 
 # plain_include.sh COMPILER STANDARD: project/ as a host without CMake compiles it, with -I: no header is a system header
 # there, and none may draw a warning that the host has asked for. One file of all sources, as they share most of the
-# headers (-Wno-return-type: each `main` goes by another name there); the shim's alone, in C++11 as well. EIGEN_INCLUDE and
-# OPENCV_INCLUDE: where those are, if not where Debian has them.
+# headers (-Wno-return-type: each `main` goes by another name there), another of what takes the compiled pipeline; the
+# shim's alone, in C++11 as well. EIGEN_INCLUDE and OPENCV_INCLUDE: where those are, if not where Debian has them.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 compiler=$1
@@ -16,13 +16,19 @@ if "$compiler" -Werror -Wuseless-cast -fsyntax-only -x c++ - <<< 'int i;' 2> /de
   flags=(-Wuseless-cast "${flags[@]}")
 fi
 
-sources=(core_only with_opencv with_options)
-[[ ! -e ${OPENCV_INCLUDE:-/usr/include/opencv4}/opencv2/dnn.hpp ]] || sources+=(with_detector)
-{
-  for source in "${sources[@]}"; do
+# one_file SOURCE...: all of these as one.
+one_file() {
+  local source
+  for source in "$@"; do
     printf '#define main %s_main\n#include "tests/consumers/project/%s.cpp"\n#undef main\n' "$source" "$source"
     printf 'int %s_main();\n' "$source"
   done
+}
+
+sources=(core_only with_opencv with_options)
+[[ ! -e ${OPENCV_INCLUDE:-/usr/include/opencv4}/opencv2/dnn.hpp ]] || sources+=(with_detector)
+{
+  one_file "${sources[@]}"
   # What each of a host's keypoint types draws in.
   echo '#include <opencv2/core/types.hpp>'
   for keypoint in cv::KeyPoint cv::Point2f cv::Point2d stillpoint::Vector2f stillpoint::Vector2d; do
@@ -30,7 +36,7 @@ sources=(core_only with_opencv with_options)
       "$keypoint" 'std::vector<stillpoint::Vector2f>&'
   done
 } | "$compiler" "-std=$2" "${flags[@]}"
-for standard in c++11 "$2"; do
-  "$compiler" "-std=$standard" "${flags[@]}" <<< '#include <stillpoint_shim.hpp>'
-done
+one_file with_compiled with_movers | "$compiler" "-std=$2" -DSTILLPOINT_COMPILED "${flags[@]}"
+"$compiler" "-std=$2" "${flags[@]}" <<< '#include <stillpoint_shim.hpp>'
+one_file with_shim | "$compiler" -std=c++11 "${flags[@]}"
 echo "$compiler -std=$2: no warning"

@@ -153,7 +153,7 @@ void write_figures(const fs::path& folder, const stillpoint::FilterScore& score)
   write("ate_rotation_median_deg", stillpoint::error_statistics(ate.errors.rotation_deg).median);
   write("rpe_rmse_m", stillpoint::error_statistics(rpe.translation_m).rmse);
   write("recall", score.recall().value());
-  write("false_positive_rate", score.false_alarms().value());
+  write("false_positive_rate", score.false_positive_rate().value());
 }
 
 std::string numbered(const char* name, int i) {

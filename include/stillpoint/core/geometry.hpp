@@ -127,6 +127,11 @@ inline Pose scaled(const Pose& motion, double factor) {
                    factor * translation_of(motion));
 }
 
+/// The motion within a time at constant velocity, to first order: rotation angle and translation times the time.
+inline Pose at_constant_velocity(const Vector3d& angular_rad_s, const Vector3d& linear_m_s, double elapsed_s) {
+  return make_pose(rotation_from_vector(elapsed_s * angular_rad_s), elapsed_s * linear_m_s);
+}
+
 /// The same pose with its rotation made orthonormal again: products of many poses, and `inverted` (which transposes),
 /// drift away from it.
 inline Pose orthonormalized(const Pose& pose) {

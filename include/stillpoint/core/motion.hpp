@@ -25,10 +25,10 @@ struct Motion {
   /// Neighbouring corners share errors of depth, of blur, of a rolling shutter.
   double correlation = 1;
   double reference_timestamp_s = std::numeric_limits<double>::quiet_NaN();
-  bool metric = true;      ///< false: nobody knows the scale; the translation is a direction of length 1, or zero
-  bool standing = false;   ///< the camera did not move at all: the pose is the identity, not an estimate
-  bool doubtful = false;   ///< few matches support it, and their depths differ by more than noise explains
-  double pixel_sigma = 0;  ///< of the matches that support it, measured; pixels, 0 where nobody says
+  bool metric = true;       ///< false: nobody knows the scale; the translation is a direction of length 1, or zero
+  bool stationary = false;  ///< the camera did not move at all: the pose is the identity, not an estimate
+  bool doubtful = false;    ///< few matches support it, and their depths differ by more than noise explains
+  double pixel_sigma = 0;   ///< of the matches that support it, measured; pixels, 0 where nobody says
   double depth_noise = 1;  ///< of depths that support it, measured, over what the noise model says; 1 where nobody says
   int candidates = 0;      ///< matches that took part
   int inliers = 0;         ///< of them, those that the motion explains
@@ -49,7 +49,7 @@ struct Motion {
 /// What the host, an IMU or the last frame expects of the motion.
 struct MotionPrior {
   std::optional<Pose> current_from_reference;
-  bool standing = true;  ///< the camera stood when it was seen last; robots are switched on standing
+  bool stationary = true;  ///< the camera was at rest when it was seen last; robots are switched on at rest
   std::optional<Pose> predicted = std::nullopt;  ///< by the host, else by the mean velocity
   double elapsed_s = 0;                          ///< since the reference frame; positive with a prediction
 };

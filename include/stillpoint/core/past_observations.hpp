@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What older frames show where a standing feature should be.
+// What older frames show where a static feature should be.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +28,7 @@ enum class Space {
   free,      ///< the view saw through to something farther
 };
 
-/// One feature in one older frame, looked for where a standing point would have been.
+/// One feature in one older frame, looked for where a static point would have been.
 struct Observation {
   ObservationState state = ObservationState::none;
   bool shows_nearer = false;  ///< a surface in its place is nearer by more than noise: it may have hidden the point
@@ -37,7 +37,7 @@ struct Observation {
   Vector2f found = Vector2f::Zero();  ///< undistorted pixel of that patch
   float depth_m = 0;                  ///< measured where the point should be, metres, 0 none
   float depth_sigma_m = 0;
-  float offset_px = 0;  ///< of that patch from where a standing point should be, in the image as it is
+  float offset_px = 0;  ///< of that patch from where a static point should be, in the image as it is
 };
 
 /// A piece of smooth surface of the current frame, a cell of a coarse grid. It counts area where there are no corners.

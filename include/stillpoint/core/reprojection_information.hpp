@@ -8,22 +8,41 @@
 
 namespace stillpoint {
 
-/// The information matrix (σ² I + a aᵀ)⁻¹ of a reprojected pixel: noise σ all round, and a, what one standard deviation
-/// of the point's inverse depth moves it along its epipolar line. Where the depth is nearly unknown, what is left of a
-/// residual is its distance from that line, as Sampson's.
+/// What one standard deviation of a point's inverse depth moves its pixel in another frame, along its epipolar line.
+/// there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = −R p / ρ = (t − there) / ρ; ∂pixel / ∂there has the rows
+/// fx (1, 0, −x) / z and fy (0, 1, −y) / z.
+/// @tparam Real  double, or a vector of doubles
+template <class Real>
+struct EpipolarShift {
+  Real x_px, y_px;
+
+  /// @param translation      t, metres
+  /// @param there_x …        R p + t, metres, and …
+  /// @param x, y             … where that is on the plane z = 1
+  /// @param relative_spread  σ of ρ, over ρ and over there_z; per metre
+  template <class Camera>
+  EpipolarShift(const Camera& camera, const Vector3d& translation, const Real& there_x, const Real& there_y,
+                const Real& there_z, const Real& x, const Real& y, const Real& relative_spread) {
+    const Real back_z = translation.z() - there_z;
+    x_px = camera.fx() * relative_spread * (translation.x() - there_x - x * back_z);
+    y_px = camera.fy() * relative_spread * (translation.y() - there_y - y * back_z);
+  }
+};
+
+/// The information matrix (σ² I + a aᵀ)⁻¹ of a reprojected pixel: noise σ all round, and a, the `EpipolarShift`.
+/// Where the depth is nearly unknown, what is left of a residual is its distance from the epipolar line, as Sampson's.
 /// @tparam Real  double, or a vector of doubles
 template <class Real>
 struct ReprojectionInformation {
   Real xx, xy, yy;  ///< per square pixel
 
   /// By the formula of Sherman and Morrison: (v I + a aᵀ)⁻¹ = (I − a aᵀ / (v + aᵀa)) / v.
-  /// @param variance          σ², square pixels
-  /// @param along_x, along_y  a, pixels
-  ReprojectionInformation(const Real& variance, const Real& along_x, const Real& along_y) {
-    const Real x_squared = along_x * along_x, y_squared = along_y * along_y;
+  /// @param variance  σ², square pixels
+  ReprojectionInformation(const Real& variance, const EpipolarShift<Real>& a) {
+    const Real x_squared = a.x_px * a.x_px, y_squared = a.y_px * a.y_px;
     const Real scale = 1.0 / (variance * (variance + x_squared + y_squared));
     xx = scale * (variance + y_squared);
-    xy = -scale * along_x * along_y;
+    xy = -scale * a.x_px * a.y_px;
     yy = scale * (variance + x_squared);
   }
 

@@ -73,7 +73,8 @@ class FilterScore {
   /// Share of the moving features that were dropped: 1 is best.
   std::optional<double> recall() const { return moving_.share(); }
   /// Share of the background's features that were dropped: 0 is best.
-  std::optional<double> false_alarms() const { return background_.share(); }
+  std::optional<double> false_positive_rate() const { return background_.share(); }
+  [[deprecated("false_positive_rate()")]] std::optional<double> false_alarms() const { return false_positive_rate(); }
   /// Share of the features on movers at rest that were dropped.
   std::optional<double> parked_dropped() const { return parked_.share(); }
 

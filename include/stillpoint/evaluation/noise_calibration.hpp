@@ -38,7 +38,7 @@ struct CalibratedNoise {
   bool has_depth() const noexcept { return !depth.empty(); }
 };
 
-/// Gathers, frame by frame, how far standing points are from where the motion takes them. It needs a camera that moves
+/// Gathers, frame by frame, how far static points are from where the motion takes them. It needs a camera that moves
 /// slowly: on a tripod a structured-light sensor repeats its errors, and in a quick turn pixels are worse than they
 /// are.
 class NoiseCalibration {

@@ -18,7 +18,7 @@
 
 namespace stillpoint {
 
-/// The scores of standing points have an exponential tail: the share that the filter drops, P, falls by e with every
+/// The scores of static points have an exponential tail: the share that the filter drops, P, falls by e with every
 /// `kDecay` nats, P(level) = exp(−(level − s₁) / decay) / 100. Measured with the whole filter, clusters and memory
 /// included, on a real recording without a mover (143 frames, 1000 keypoints): 1.2 % at 1.7, 0.9 % at 2.0, 0.6 % at
 /// 2.3, 0.35 % at 2.8, 0.13 % at 3.3. The default s₁ keeps a margin of a third.
@@ -33,7 +33,7 @@ class TailGate {
   using Provides = Capabilities<capability::tail_threshold>;
 
   struct Options {
-    double false_positive_rate = 0.01;  ///< share of standing features that may be dropped, 1e-6 to 0.5
+    double false_positive_rate = 0.01;  ///< share of static features that may be dropped, 1e-6 to 0.5
   };
   Options options;
 

@@ -13,7 +13,7 @@
 
 namespace stillpoint {
 
-/// The depth that an older frame measured where a standing feature would be: from a supposed depth to the pixel there,
+/// The depth that an older frame measured where a static feature would be: from a supposed depth to the pixel there,
 /// from the depth measured there back, until both agree.
 /// @param pixel      in the current image, undistorted
 /// @param start_m    supposed depth

@@ -115,14 +115,14 @@ void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& su
                            surfaces.scaled_step_px(camera), matches, workspace);
 }
 
-/// Whether a frame shows a feature clearly where a standing one would be.
+/// Whether a frame shows a feature clearly where a static one would be.
 inline bool stands_in_place(const Observation& observation) noexcept {
   constexpr float kAlike = 0.12f, kThere_px = 0.7f;
   return observation.state == ObservationState::seen && observation.dissimilarity < kAlike &&
          observation.offset_px < kThere_px;
 }
 
-/// Where neither the last nor the oldest frame objects to feature `i` standing still, those between would not either.
+/// Where neither the last nor the oldest frame objects to feature `i` being static, those between would not either.
 inline bool clearly_stands(std::size_t i, span<const OlderFrame> frames) noexcept {
   return !frames.empty() && stands_in_place(frames[0].of_feature[i]) &&
          stands_in_place(frames[frames.size() - 1].of_feature[i]);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What do older frames show where a standing feature should be?   Features, the motion → past_observations
+// What do older frames show where a static feature should be?   Features, the motion → past_observations
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@
 
 namespace stillpoint {
 
-/// Looks for every feature at the places where a standing point would have been in older frames. `choose_keyframes`
+/// Looks for every feature at the places where a static point would have been in older frames. `choose_keyframes`
 /// comes before the motion is estimated, `reproject_into_past` after.
 class PastReprojection {
  public:
@@ -259,7 +259,7 @@ class PastReprojection {
   }
 };
 
-using LookBack [[deprecated("PastReprojection")]] = PastReprojection;  ///< its name in 0.1; gone in 0.3
+using LookBack [[deprecated("PastReprojection")]] = PastReprojection;  ///< its name in 0.1; gone in 0.4
 
 template <class Visit>
 void each_option(PastReprojection& stage, Visit& visit) {

@@ -34,7 +34,7 @@ namespace stillpoint {
 /// feature is lost.
 ///
 /// In a policy set that remembers frames the tracks are chained: they tell where each feature was in older frames, in
-/// place of a patch search. Only where a track objects to standing is its patch compared: optical flow slides along
+/// place of a patch search. Only where a track objects to being static is its patch compared: optical flow slides along
 /// silhouettes. A set with a history of one frame gets the matches alone.
 class ProvidedMatches {
  public:
@@ -44,7 +44,7 @@ class ProvidedMatches {
   struct Options {
     float border_px = 10.0f;      ///< nearer to either image's border a feature stays out of ego-motion; 0: none
     float same_point_px = 1.0f;   ///< a track goes on at a feature of the last frame within this
-    float objection_px = 1.0f;    ///< a track farther from the place of a standing point objects …
+    float objection_px = 1.0f;    ///< a track farther from the place of a static point objects …
     float known_log_odds = 1.0f;  ///< … and the patch has the last word, unless memory says so clearly that it moves
     int occluder_reach_px = 8;    ///< of a track beside something nearer nothing is believed
     int surrounding_px = 24;      ///< how far a feature without a depth looks for the surfaces beside it
@@ -148,7 +148,8 @@ class ProvidedMatches {
     }
   }
 
-  /// A feature without a depth lies on one of the surfaces beside it: the one on which its track is nearer to standing.
+  /// A feature without a depth lies on one of the surfaces beside it: the one on which its track is nearer to that of a
+  /// static point.
   template <class Camera, class Noise>
   void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
                    const Noise& noise, Observations& observations) const {
@@ -166,7 +167,7 @@ class ProvidedMatches {
   }
 
   /// Looks a feature up in the older frames.
-  /// @return how far it was from the places of a standing point, summed over the frames, pixels
+  /// @return how far it was from the places of a static point, summed over the frames, pixels
   template <class Camera, class Noise>
   float look(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
              const FrameView& current, const Camera& camera, const Noise& noise, Observations& observations) const {

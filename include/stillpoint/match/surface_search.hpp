@@ -59,7 +59,7 @@ struct SurfaceSearch {
     return std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
   }
 
-  /// The surface that an older frame shows where a standing cell would have been.
+  /// The surface that an older frame shows where a static cell would have been.
   template <class Camera, class Noise>
   SurfaceObservation look(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
                           const Camera& camera, const Noise& noise) const {

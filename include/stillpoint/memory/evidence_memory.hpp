@@ -99,7 +99,7 @@ class EvidenceMemory {
       const Memory before = recalled_[i];
       Label& label = labels[i];
       const float now = label.log_odds;
-      const float least = -kMostLogOdds * (1.0f - kRestlessness * before.suspicion);
+      const float least = -kMostLogOdds * (1.0f - kSuspectBoundLoss * before.suspicion);
       label.log_odds = std::clamp(persistence * before.log_odds + now + before.by_map - cautious, least, kMostLogOdds);
       label.trust = observations.remembered.trust[i];
       decide(label, now);
@@ -136,13 +136,12 @@ class EvidenceMemory {
   static constexpr float kMostLogOdds = 3.0f;   // log-odds are held within ± this, nats
   static constexpr float kDropAbove = 0.0f;     // nats: even odds; the gate's rate sets how much evidence that takes
   static constexpr float kSuspectAbove = 2.0f;  // log-odds that make a feature suspect, nats
-  static constexpr float kRestlessness =
-      0.6f;  // share of the lower bound that full suspicion takes away: it may restart
-  static constexpr float kMapEvidence = 6.0f;      // nats: several points of a map outweigh two frames that agree
-  static constexpr float kLeastTrust = 0.01f;      // say of a feature of full suspicion
-  static constexpr double kCertaintyRise_s = 1.0;  // time in which all but 1 / e is known of what is watched
-  static constexpr float kFeature_px = 15.0f;      // how far a feature may have moved and still be recognised
-  static constexpr float kNeighbour_px = 25.0f;    // neighbours that hand suspicion on
+  static constexpr float kSuspectBoundLoss = 0.6f;  // of the lower bound, at full suspicion: it may start again
+  static constexpr float kMapEvidence = 6.0f;       // nats: several points of a map outweigh two frames that agree
+  static constexpr float kLeastTrust = 0.01f;       // say of a feature of full suspicion
+  static constexpr double kCertaintyRise_s = 1.0;   // time in which all but 1 / e is known of what is watched
+  static constexpr float kFeature_px = 15.0f;       // how far a feature may have moved and still be recognised
+  static constexpr float kNeighbour_px = 25.0f;     // neighbours that hand suspicion on
   static constexpr float kMinority =
       0.25f;  // share of suspect neighbours below which none is handed on; above 1 − this, all
   static constexpr DepthTolerance kSameSurface{0.06};

@@ -25,7 +25,7 @@ namespace stillpoint {
 
 /// Gives what the objects know back to the verdicts. The filter asks of a feature whether it moves at all; where an
 /// object's motion is too small there to be told from noise, the object itself says more: what lies on it and fits its
-/// motion better than standing still moves along. Where the two motions are far apart the filter has told them apart.
+/// motion better than being static moves along. Where the two motions are far apart the filter has told them apart.
 class ObjectHypothesis {
  public:
   /// Makes kept features dynamic that lie on an object that surely moves, and whose they are. A feature without a
@@ -65,7 +65,7 @@ class ObjectHypothesis {
  private:
   static constexpr float kReach_px = 8.0f;        // for a focal length of 525 px: half of a support corner's cell
   static constexpr double kSameSurface_m = 0.06;  // between neighbours on one surface
-  static constexpr double kSurely_m_s = 0.2;      // slower ones' motion is within the noise of standing still
+  static constexpr double kSurely_m_s = 0.2;      // slower ones' motion is within the noise of a static object
   static constexpr std::size_t kFewest = 20;      // features whose common motion is well known
   static constexpr double kApart_sq = 9.0;        // χ²: where the motions differ by more, the filter tells them apart
   static constexpr double kExplained_sq = 2.37;  // χ² of three degrees of freedom: half of the object's own fit as well

@@ -90,11 +90,11 @@ struct TrackedObject {
     return 0.15 + 0.2 * speed + (1.0 - rigid_share) * (0.3 + 0.6 * speed);
   }
 
-  /// Its motion in the world within a time, in the current camera's axes, at constant velocity.
+  /// Its motion in the world within a time, in the current camera's axes, at constant velocity: about its centroid.
   Pose step(double elapsed_s) const {
-    Pose step = Pose::Identity();
-    if (surely_turns) step.linear() = rotation_from_vector(elapsed_s * angular.velocity());
-    step.translation() = mover.centroid + elapsed_s * linear.velocity() - step.linear() * mover.centroid;
+    const Vector3d turn = surely_turns ? angular.velocity() : Vector3d(Vector3d::Zero());
+    Pose step = at_constant_velocity(turn, linear.velocity(), elapsed_s);
+    step.translation() += mover.centroid - step.linear() * mover.centroid;
     return step;
   }
 

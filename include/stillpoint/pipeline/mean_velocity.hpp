@@ -29,7 +29,7 @@ class MeanVelocity {
   /// current_from_reference after so long; nothing where nothing is known.
   std::optional<Pose> during(double elapsed_s) const {
     if (!known_) return std::nullopt;
-    return make_pose(rotation_from_vector(elapsed_s * angular_rad_s_), elapsed_s * linear_m_s_);
+    return at_constant_velocity(angular_rad_s_, linear_m_s_, elapsed_s);
   }
 
   void forget() noexcept { *this = MeanVelocity(); }

@@ -51,7 +51,7 @@ class MotionExpectation {
   /// @param timestamp_s  of the coming frame: the velocity is scaled to the time that has passed
   MotionPrior at(double timestamp_s) const {
     MotionPrior prior;
-    prior.standing = standing_;
+    prior.stationary = stationary_;
     if (last_timestamp_s_) prior.elapsed_s = timestamp_s - *last_timestamp_s_;
     if (said_)
       prior.current_from_reference = said_;
@@ -75,7 +75,7 @@ class MotionExpectation {
     if (!motion.usable()) return mean_velocity_.forget();
     if (last_interval_s_ > 0) mean_velocity_.add(motion.current_from_reference, last_interval_s_);
     last_motion_ = motion.current_from_reference;
-    standing_ = motion.standing;
+    stationary_ = motion.stationary;
   }
 
   const std::optional<double>& last_timestamp_s() const noexcept { return last_timestamp_s_; }
@@ -85,7 +85,7 @@ class MotionExpectation {
   MeanVelocity mean_velocity_;       // of the motions that were found; the host's own poses do not change it
   std::optional<Pose> last_motion_;  // what was done within last_interval_s_
   double last_interval_s_ = 0.0;
-  bool standing_ = true;
+  bool stationary_ = true;
   std::optional<double> last_timestamp_s_;
   std::optional<Pose> world_from_last_, world_from_second_last_;  // the host's poses of the last two frames
 };

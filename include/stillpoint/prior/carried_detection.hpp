@@ -35,7 +35,7 @@ class CarriedDetection {
 
   CarriedDetection(const Detection& seen, double timestamp_s) : detection(seen), seen_s(timestamp_s) {}
 
-  /// Its own speed in the image, beyond what the camera's motion gives a standing object; pixels a second.
+  /// Its own speed in the image, beyond what the camera's motion gives a static object; pixels a second.
   const Vector2f& own_velocity_px_s() const noexcept { return own_px_s_; }
 
   bool has_depth_range() const noexcept { return std::isfinite(detection.farthest_m); }
@@ -56,12 +56,12 @@ class CarriedDetection {
     if (!(image.elapsed_s > 0)) return;
     const auto elapsed_s = static_cast<float>(image.elapsed_s);
     const Vector2f from = centre() - (predicted_ ? step_ : image_px_s_ * elapsed_s);
-    Vector2f standing = Vector2f::Zero();
-    if (image.knows_camera()) standing = image.standing_step(from, depth_m());
-    Step step{standing + own_px_s_ * elapsed_s, 1.0f};
+    Vector2f static_step = Vector2f::Zero();
+    if (image.knows_camera()) static_step = image.static_step(from, depth_m());
+    Step step{static_step + own_px_s_ * elapsed_s, 1.0f};
     if (const std::optional<Step> measured = step_of_features(image, fewest_features, workspace)) {
       step = *measured;
-      const Vector2f own = (step.displacement - standing) / elapsed_s;
+      const Vector2f own = (step.displacement - static_step) / elapsed_s;
       if (image.knows_camera()) own_px_s_ = is_followed_ ? 0.5f * (own_px_s_ + own) : own;
       is_followed_ = true;
     } else if (!image.knows_camera()) {

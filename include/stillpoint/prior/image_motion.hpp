@@ -62,7 +62,7 @@ class ImageMotion {
                          static_cast<float>(matches.current.depth_m[i])});
   }
 
-  /// Keeps K R K⁻¹ and K t, which say where a standing point goes. The lens's distortion is left out: the few pixels
+  /// Keeps K R K⁻¹ and K t, which say where a static point goes. The lens's distortion is left out: the few pixels
   /// between two frames hardly differ by it.
   template <class Camera>
   void set_camera_motion(const Motion& motion, const Camera& camera) {
@@ -78,10 +78,10 @@ class ImageMotion {
   }
   bool knows_camera() const noexcept { return knows_camera_; }
 
-  /// How far a standing point moved in the image.
+  /// How far a static point moved in the image.
   /// @param from     pixel in the frame before
   /// @param depth_m  infinity where it is not known: what is far moves by the camera's rotation alone
-  Vector2f standing_step(const Vector2f& from, double depth_m) const {
+  Vector2f static_step(const Vector2f& from, double depth_m) const {
     const Vector3d ray(static_cast<double>(from.x()), static_cast<double>(from.y()), 1);
     const Vector3d there = turn_ * ray + shift_ / depth_m;
     if (!(there.z() > 0)) return Vector2f::Zero();

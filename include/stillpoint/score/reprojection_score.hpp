@@ -21,7 +21,7 @@
 
 namespace stillpoint {
 
-/// Each older frame gives a log-likelihood ratio, moving against standing. A standing point's whitened distance is
+/// Each older frame gives a log-likelihood ratio, moving against static. A static point's whitened distance is
 /// Gaussian in its core with a heavy tail; a Gaussian contaminated by a flat share ε has −log p = min(d² / 2, −log ε):
 /// evidence saturates, no single observation decides. The score is the mean of the two frames that object most: one bad
 /// observation is a reflection or an edge, two are motion.
@@ -95,17 +95,16 @@ class ReprojectionScore {
     return sigma_px * std::clamp(kMotionSigmas * motion.pixel_sigma / options.pixel_sigma, kLeastNoise, 1.0);
   }
 
-  /// The squared whitened distance from where a standing point would be to where its patch was found.
-  /// @param there  the point in the older camera
-  /// @param spread ∂there for one standard deviation of the inverse depth: it moves the place along the epipolar line.
-  ///               Where the depth is only supposed, what is left is the distance from that line, as Sampson's.
+  /// The squared whitened distance from where a static point would be to where its patch was found.
+  /// @param translation  of the motion that took it `there`, into the older camera
+  /// @param spread       relative standard deviation of its inverse depth
   template <class Camera>
-  static double squared_distance(const Vector3d& there, const Vector3d& spread, const Vector2f& found, double variance,
-                                 const Camera& camera) {
+  static double squared_distance(const Vector3d& there, const Vector3d& translation, double spread,
+                                 const Vector2f& found, double variance, const Camera& camera) {
     const Vector2d error = camera.project(there) - Vector2d(found.cast<double>());
-    const Vector2d along(camera.fx() * (spread.x() - there.x() / there.z() * spread.z()) / there.z(),
-                         camera.fy() * (spread.y() - there.y() / there.z() * spread.z()) / there.z());
-    return ReprojectionInformation<double>(variance, along.x(), along.y()).squared_distance(error.x(), error.y());
+    const EpipolarShift<double> shift(camera, translation, there.x(), there.y(), there.z(), there.x() / there.z(),
+                                      there.y() / there.z(), spread / there.z());
+    return ReprojectionInformation<double>(variance, shift).squared_distance(error.x(), error.y());
   }
 
   template <class Camera>
@@ -117,10 +116,9 @@ class ReprojectionScore {
     if (std::isfinite(observation.dissimilarity)) {
       const double sigma = place_sigma_px(observation.dissimilarity, frame.elapsed_s, motion);
       const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
-      // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = (t − there) z.
-      const Vector3d spread = (translation_of(frame.reference_from_current) - there) *
-                              (point.z() * matches.past_observations.inverse_depth_sigma[i]);
-      const double squared = squared_distance(there, spread, observation.found, variance, camera);
+      const double spread = point.z() * matches.past_observations.inverse_depth_sigma[i];
+      const double squared = squared_distance(there, translation_of(frame.reference_from_current), spread,
+                                              observation.found, variance, camera);
       const double look = static_cast<double>(observation.dissimilarity) / kDissimilarityScale;
       evidence +=
           std::min(0.5 * squared, options.most_from_place) + std::min(look, options.most_from_look) - expected_patch;
@@ -136,7 +134,7 @@ class ReprojectionScore {
   }
 };
 
-using SightingScore [[deprecated("ReprojectionScore")]] = ReprojectionScore;  ///< its name in 0.1; gone in 0.3
+using SightingScore [[deprecated("ReprojectionScore")]] = ReprojectionScore;  ///< its name in 0.1; gone in 0.4
 
 template <class Visit>
 void each_option(ReprojectionScore& stage, Visit& visit) {

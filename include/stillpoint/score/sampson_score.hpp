@@ -21,7 +21,7 @@
 
 namespace stillpoint {
 
-/// A log-likelihood ratio, moving against standing, nats. A standing point lies on its epipolar line (Sampson's
+/// A log-likelihood ratio, moving against static, nats. A static point lies on its epipolar line (Sampson's
 /// distance, one degree of freedom) and on that side of the point at infinity on which it is before the camera. What
 /// moves along its line towards nearer depths looks like something near: it is not found. Where the camera only turned
 /// there are no lines; a point is expected where the rotation takes it, give or take a little parallax.
@@ -35,7 +35,7 @@ class SampsonScore {
     double most_pixel_sigma = 1.0;    ///< where it is more, the motion does not explain the frame: nothing is scored
     double turned_parallax_px = 1.0;  ///< what a step that was too small for a direction may still move a near point
     double most_evidence = 8.0;       ///< −log of the share of bad matches: no pair of frames decides alone
-    double expected = 0.5;            ///< what a standing point scores on average: half a squared sigma
+    double expected = 0.5;            ///< what a static point scores on average: half a squared sigma
     float least_trust = 0.5f;         ///< of a match by which noise is measured
   };
   Options options;

@@ -88,6 +88,14 @@ TEST(Geometry, InvertedIsTheMotionBack) {
   EXPECT_TRUE((inverted(motion) * motion).matrix().isIdentity(kRounding));
 }
 
+TEST(Geometry, AtConstantVelocityTurnsAndShiftsByTheTime) {
+  // A quarter turn per second about z, and 2 m/s along x: after half a second 45 degrees and 1 m.
+  const double quarter = std::acos(0.0);
+  const Pose moved = at_constant_velocity({0, 0, quarter}, {2, 0, 0}, 0.5);
+  const double half = std::sqrt(0.5);
+  EXPECT_LE((moved * Vector3d(1, 0, 0) - Vector3d(1 + half, half, 0)).norm(), kRounding);
+}
+
 TEST(Geometry, OrthonormalizedStopsTheDriftOfLongChains) {
   Random random(3);
   Pose step = Pose::Identity();

@@ -41,7 +41,7 @@ TEST(FilterScore, HandComputed) {
   EXPECT_EQ(score.background().features, 4u);
   EXPECT_EQ(score.parked().features, 1u);
   EXPECT_DOUBLE_EQ(score.recall().value(), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(score.false_alarms().value(), 0.25);
+  EXPECT_DOUBLE_EQ(score.false_positive_rate().value(), 0.25);
   EXPECT_DOUBLE_EQ(score.parked_dropped().value(), 1.0);
 }
 
@@ -49,7 +49,7 @@ TEST(FilterScore, FirstFrameIsLeftOut) {
   FilterScore score;
   score.add_frame(kLabels, std::vector<Vector2f>{{3, 0}, {0, 0}}, std::vector<std::uint8_t>{0, 0});
   EXPECT_FALSE(score.recall());
-  EXPECT_FALSE(score.false_alarms());
+  EXPECT_FALSE(score.false_positive_rate());
   EXPECT_FALSE(score.parked_dropped());
 }
 
@@ -58,7 +58,7 @@ TEST(FilterScore, KindWithoutAFeatureHasNoNumber) {
   for (int frame = 0; frame < 2; ++frame)
     score.add_frame(kLabels, std::vector<Vector2f>{{0, 0}}, std::vector<std::uint8_t>{1});
   EXPECT_FALSE(score.recall());
-  EXPECT_DOUBLE_EQ(score.false_alarms().value(), 0.0);
+  EXPECT_DOUBLE_EQ(score.false_positive_rate().value(), 0.0);
   EXPECT_FALSE(score.parked_dropped());
 }
 

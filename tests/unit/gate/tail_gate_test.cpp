@@ -113,7 +113,7 @@ TEST(TailGate, LearnsOnlyFromWhatIsKnownToStand) {
   EXPECT_EQ(learner.raised(), 0.0);
 }
 
-// A world whose tail is longer than the prior's: evidence of a standing feature exceeds the level with the probability
+// A world whose tail is longer than the prior's: evidence of a static feature exceeds the level with the probability
 // P(level) = exp(−(level − 2.3) / 0.8) × 5 %. It is the rate of 1 % where the level is 2.3 + 0.8 ln 5 = 3.59. The
 // tolerance is four standard deviations of what is measured at the end, 100 frames of 300 features, in nats: 0.8 /
 // √300.

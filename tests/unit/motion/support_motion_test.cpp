@@ -313,7 +313,7 @@ TEST(SupportMotion, ACameraThatStandsHasNoMotionAtAll) {
     for (const MotionPrior& prior : {kStood, kMoved, MotionPrior{kMotion, false}}) {
       const Motion motion = estimate(matches, prior);
       EXPECT_EQ(motion.status, Status::ok);
-      EXPECT_TRUE(motion.standing);
+      EXPECT_TRUE(motion.stationary);
       EXPECT_TRUE(is_identity(motion.current_from_reference)) << "not nearly";
       EXPECT_GT(motion.covariance.diagonal().minCoeff(), 0.0);
     }
@@ -323,7 +323,7 @@ TEST(SupportMotion, ACameraThatStandsHasNoMotionAtAll) {
 TEST(SupportMotion, ACameraThatMovesDoesNotStand) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const Motion motion = estimate(scene_of(kMotion, seed, 0.3), kStood);
-    EXPECT_FALSE(motion.standing);
+    EXPECT_FALSE(motion.stationary);
     EXPECT_LT(test::translation_error(motion.current_from_reference, kMotion), 3e-3);
   }
 }
@@ -333,11 +333,11 @@ TEST(SupportMotion, ACreepIsAMotion) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Pose creep = test::pose_of({0, kCreep_rad, 0}, Vector3d::Zero());
     const Matches matches = scene_of(creep, seed, 0.02 / std::sqrt(2.0));
-    ASSERT_TRUE(policy().standing.since_last_frame(test::observations_of(matches), false))
+    ASSERT_TRUE(policy().stationary_camera.since_last_frame(test::observations_of(matches), false))
         << "each corner by itself is at rest";
     const Motion motion = estimate(matches, kStood);
     EXPECT_EQ(motion.status, Status::ok);
-    EXPECT_FALSE(motion.standing);
+    EXPECT_FALSE(motion.stationary);
     EXPECT_LT(test::rotation_error(motion.current_from_reference, creep), 0.1 * kCreep_rad);
     EXPECT_LT(test::translation_error(motion.current_from_reference, creep), 1e-4);
   }
@@ -365,10 +365,10 @@ TEST(SupportMotion, WhoFillsTheViewOfAStationaryCameraDoesNotTakeItAlong) {
     const Matches matches = person_before_a_wall(seed);
     const Motion motion = estimate(matches, kStood);
     EXPECT_TRUE(motion.usable()) << to_string(motion.status);
-    EXPECT_TRUE(motion.standing);
+    EXPECT_TRUE(motion.stationary);
     EXPECT_TRUE(is_identity(motion.current_from_reference));
     EXPECT_GE(motion.inliers, 40) << "the wall";
-    EXPECT_FALSE(estimate(matches, kMoved).standing) << "a camera that moved does not stop for a fifth of the view";
+    EXPECT_FALSE(estimate(matches, kMoved).stationary) << "a camera that moved does not stop for a fifth of the view";
     const MotionPrior velocity{std::nullopt, true, test::pose_of({0, 0.001, 0}, {0.002, 0, 0}), 1.0 / 30.0};
     EXPECT_TRUE(is_identity(estimate(matches, velocity).current_from_reference)) << "nor does a velocity move it";
   }
@@ -563,7 +563,7 @@ struct StoodBack {
       frame.of_feature[i] = observation(found, there.z());
     }
     motion.status = Status::ok;
-    motion.standing = true;
+    motion.stationary = true;
     motion.covariance = 1e-8 * Matrix6d::Identity();
   }
 
@@ -578,12 +578,12 @@ struct StoodBack {
 TEST(SupportMotion, RefiningLeavesAStationaryCameraAlone) {
   StoodBack scene(Pose::Identity());
   scene.refine();
-  EXPECT_TRUE(scene.motion.standing);
+  EXPECT_TRUE(scene.motion.stationary);
   EXPECT_TRUE(is_identity(scene.motion.current_from_reference));
   EXPECT_TRUE(is_identity(scene.matches.past_observations.frames()[0].reference_from_current));
   EXPECT_EQ(scene.motion.covariance, Matrix6d(1e-8 * Matrix6d::Identity()));
   StoodBack estimated(Pose::Identity());
-  estimated.motion.standing = false;
+  estimated.motion.stationary = false;
   estimated.refine();
   EXPECT_FALSE(is_identity(estimated.motion.current_from_reference)) << "the noise of an estimate";
 }
@@ -593,7 +593,7 @@ TEST(SupportMotion, ACreepEndsTheStandWhereAnOlderFrameShowsIt) {
   const Pose creep = test::pose_of({0, 4 * kCreep_rad, 0}, Vector3d::Zero());
   StoodBack scene(creep);
   scene.refine();
-  EXPECT_FALSE(scene.motion.standing);
+  EXPECT_FALSE(scene.motion.stationary);
   const Pose& found = scene.matches.past_observations.frames()[0].reference_from_current;
   EXPECT_LT(test::rotation_error(found, creep.inverse()), 0.5 * kCreep_rad);
   EXPECT_LT(test::translation_error(found, creep.inverse()), 1e-3);

@@ -94,7 +94,7 @@ synthetic::SceneOptions full_size(int frames) {
 
 void expect_all_judged(const Outcome& outcome) { EXPECT_EQ(outcome.judged, outcome.frames); }
 
-// If each standing feature were dropped with the rate p, the count of n would stay below np + 3 √(np (1 − p)) in 999 of
+// If each static feature were dropped with the rate p, the count of n would stay below np + 3 √(np (1 − p)) in 999 of
 // 1000 cases.
 TEST(DefaultScenes, AStaticRoomHoldsTheSetRate) {
   for (const double rate : {0.01, 0.05}) {
@@ -121,9 +121,9 @@ TEST(DefaultScenes, ABoxThatNoDetectorKnowsIsFound) {
   expect_all_judged(outcome);
   ASSERT_GT(outcome.score.moving().features, 1000u);
   EXPECT_GE(outcome.score.recall(), 0.95);
-  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.005);
   EXPECT_GE(outcome.predicted_mask.recall(), 0.9) << "told before the frame was seen";
-  EXPECT_LE(outcome.predicted_mask.false_alarms(), 0.02);
+  EXPECT_LE(outcome.predicted_mask.false_positive_rate(), 0.02);
   EXPECT_LE(outcome.worst_position_m, 0.01) << "a pose that the box takes along is off by centimetres";
 }
 
@@ -165,7 +165,7 @@ TEST(DefaultScenes, ABoxThatCreepsIsFound) {
   expect_all_judged(outcome);
   ASSERT_GT(outcome.score.moving().features, 5000u);
   EXPECT_GE(outcome.score.recall(), 0.9);
-  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.005);
 }
 
 // Someone who sways fills more than three quarters of the picture, and no detector says so: what is left of the room at
@@ -205,9 +205,9 @@ TEST(DefaultScenes, WalkingPeopleInBoxesAreFound) {
   expect_all_judged(outcome);
   ASSERT_GT(outcome.score.moving().features, 1000u);
   EXPECT_GE(outcome.score.recall(), 0.95);
-  EXPECT_LE(outcome.score.false_alarms(), 0.015);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.015);
   EXPECT_GE(outcome.predicted_mask.recall(), 0.9);
-  EXPECT_LE(outcome.predicted_mask.false_alarms(), 0.04) << "features at rims, which the surface's cells reach";
+  EXPECT_LE(outcome.predicted_mask.false_positive_rate(), 0.04) << "features at rims, which the surface's cells reach";
 }
 
 TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
@@ -215,7 +215,7 @@ TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
   FrameFilter<> filter(scene.camera);
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
-  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.005);
   EXPECT_LE(outcome.worst_position_m, 0.01);
 }
 
@@ -225,7 +225,7 @@ TEST(DefaultScenes, AStationaryCameraDoesNoHarm) {
   const Outcome outcome = run(scene, filter);
   expect_all_judged(outcome);
   EXPECT_GE(outcome.score.recall(), 0.9);
-  EXPECT_LE(outcome.score.false_alarms(), 0.02);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.02);
   EXPECT_LT(outcome.worst_position_m, 0.002) << "it has no motion, not a small one";
 }
 
@@ -238,7 +238,7 @@ TEST(DefaultScenes, AHandThatWavesIsFoundAndTheSitterKept) {
   ASSERT_GT(outcome.score.moving().features, 200u);
   EXPECT_GE(outcome.score.recall(), 0.9);
   EXPECT_LE(outcome.score.parked_dropped(), 0.05);
-  EXPECT_LE(outcome.score.false_alarms(), 0.005);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.005);
 }
 
 // A real kitchen in which nothing moves. Features of one frame are dropped together, because they share its motion and

@@ -498,15 +498,15 @@ TEST_F(FrameFilterTest, ResetForgetsFramesAndPosesButNoSetting) {
 
 TEST_F(FrameFilterTest, TheStandOfTheCameraIsTheLastMotionsUntilReset) {
   at(1.0);
-  filter_.ego_motion.answer.standing = false;
+  filter_.ego_motion.answer.stationary = false;
   at(1.1);
-  EXPECT_TRUE(filter_.ego_motion.asked.standing) << "robots are switched on standing";
+  EXPECT_TRUE(filter_.ego_motion.asked.stationary) << "robots are switched on at rest";
   at(1.2);
-  EXPECT_FALSE(filter_.ego_motion.asked.standing);
+  EXPECT_FALSE(filter_.ego_motion.asked.stationary);
   filter_.reset();
   at(1.3);
   at(1.4);
-  EXPECT_TRUE(filter_.ego_motion.asked.standing);
+  EXPECT_TRUE(filter_.ego_motion.asked.stationary);
 }
 
 // ---- Keypoints and masks ----

@@ -50,14 +50,14 @@ Outcome run(const synthetic::Scene& scene, bool with_boxes) {
 TEST(Monocular, AStaticRoomIsLeftAlone) {
   const Outcome outcome = run(synthetic::static_room(small(60)), false);
   EXPECT_GE(outcome.judged, 20) << "a filter that judges nothing proves nothing";
-  EXPECT_LE(outcome.score.false_alarms().value(), 0.01);
+  EXPECT_LE(outcome.score.false_positive_rate().value(), 0.01);
 }
 
 TEST(Monocular, WhoWalksInABoxIsFoundAndTheRoomKept) {
   const Outcome outcome = run(synthetic::walking_people(small(60)), true);
   ASSERT_GT(outcome.score.moving().features, 1000u);
   EXPECT_GE(outcome.score.recall().value(), 0.4);
-  EXPECT_LE(outcome.score.false_alarms().value(), 0.1);
+  EXPECT_LE(outcome.score.false_positive_rate().value(), 0.1);
 }
 
 }  // namespace

@@ -53,7 +53,7 @@ TEST(MotionCovariance, IsThatOfTheErrorsOnRecordings) {
           filter.filter_frame({gray, DepthView(images.depth, sequence.depth_factor()), timestamp_s}, keypoints)
               .motion();
       const std::optional<Pose> world_from_camera = reference_pose(sequence, timestamp_s);
-      if (motion.usable() && !motion.standing && world_from_last && world_from_camera) {
+      if (motion.usable() && !motion.stationary && world_from_last && world_from_camera) {
         const Pose truth = world_from_camera->inverse() * *world_from_last;
         const Pose off = truth * motion.current_from_reference.inverse();  // Exp(ω), v of Motion::covariance
         Vector6d error;

@@ -20,11 +20,11 @@ Pose shift(double x_m) {
   return pose;
 }
 
-Motion motion(bool standing, Status status = Status::ok) {
+Motion motion(bool stationary, Status status = Status::ok) {
   Motion motion;
   motion.status = status;
-  motion.standing = standing;
-  if (!standing) motion.current_from_reference = shift(0.1);
+  motion.stationary = stationary;
+  if (!stationary) motion.current_from_reference = shift(0.1);
   return motion;
 }
 
@@ -105,47 +105,47 @@ TEST(MotionExpectation, TimeStampsARoundingApartGiveNoVelocity) {
 
 TEST(MotionExpectation, ACameraStandsAtFirst) {
   MotionExpectation expectation;
-  EXPECT_TRUE(expectation.at(1.0).standing);
+  EXPECT_TRUE(expectation.at(1.0).stationary);
   expectation.expect(shift(0.1));
-  EXPECT_TRUE(expectation.at(1.0).standing) << "what the host says of the pose says nothing of the camera's stand";
-  EXPECT_TRUE(MotionPrior().standing);
-  EXPECT_FALSE(Motion().standing) << "a motion says so only where it knows";
+  EXPECT_TRUE(expectation.at(1.0).stationary) << "what the host says of the pose says nothing of the camera's stand";
+  EXPECT_TRUE(MotionPrior().stationary);
+  EXPECT_FALSE(Motion().stationary) << "a motion says so only where it knows";
 }
 
 TEST(MotionExpectation, ACameraStandsAsItsLastMotionDid) {
   MotionExpectation expectation;
   double time_s = 1.0;
-  for (const bool standing : {true, false, false, true, false}) {
-    expectation.advance(time_s += 0.1, motion(standing));
-    EXPECT_EQ(expectation.at(time_s + 0.1).standing, standing);
+  for (const bool stationary : {true, false, false, true, false}) {
+    expectation.advance(time_s += 0.1, motion(stationary));
+    EXPECT_EQ(expectation.at(time_s + 0.1).stationary, stationary);
   }
 }
 
 // All ways to an answer carry it: the velocity, the host's word, and none of both.
 TEST(MotionExpectation, TheStandIsSaidWithEveryPose) {
-  for (const bool standing : {true, false}) {
+  for (const bool stationary : {true, false}) {
     MotionExpectation expectation;
-    expectation.advance(0.9, motion(standing));
-    expectation.advance(1.0, motion(standing));
+    expectation.advance(0.9, motion(stationary));
+    expectation.advance(1.0, motion(stationary));
     ASSERT_TRUE(expectation.at(1.1).current_from_reference);
-    EXPECT_EQ(expectation.at(1.1).standing, standing);
+    EXPECT_EQ(expectation.at(1.1).stationary, stationary);
     expectation.expect(shift(0.3));
     ASSERT_TRUE(expectation.at(1.1).current_from_reference->isApprox(shift(0.3)));
-    EXPECT_EQ(expectation.at(1.1).standing, standing);
+    EXPECT_EQ(expectation.at(1.1).stationary, stationary);
     expectation.advance(1.1, motion(false, Status::no_consensus));
     ASSERT_FALSE(expectation.at(1.2).current_from_reference);
-    EXPECT_EQ(expectation.at(1.2).standing, standing);
+    EXPECT_EQ(expectation.at(1.2).stationary, stationary);
   }
 }
 
 // A wall without texture for a moment is no reason to believe that the camera set off, or stopped.
 TEST(MotionExpectation, AnUnusableMotionLeavesTheStandAsItWas) {
   for (const Status status : kUnusable) {
-    for (const bool standing : {true, false}) {
+    for (const bool stationary : {true, false}) {
       MotionExpectation expectation;
-      expectation.advance(1.0, motion(standing));
-      expectation.advance(1.1, motion(!standing, status));
-      EXPECT_EQ(expectation.at(1.2).standing, standing) << to_string(status);
+      expectation.advance(1.0, motion(stationary));
+      expectation.advance(1.1, motion(!stationary, status));
+      EXPECT_EQ(expectation.at(1.2).stationary, stationary) << to_string(status);
       EXPECT_FALSE(expectation.at(1.2).current_from_reference) << to_string(status);
     }
   }
@@ -155,9 +155,9 @@ TEST(MotionExpectation, AnUnusableMotionLeavesTheStandAsItWas) {
 TEST(MotionExpectation, ACameraStandsAgainWhereAllIsForgotten) {
   MotionExpectation expectation;
   expectation.advance(1.0, motion(false));
-  ASSERT_FALSE(expectation.at(1.1).standing);
+  ASSERT_FALSE(expectation.at(1.1).stationary);
   expectation = MotionExpectation();
-  EXPECT_TRUE(expectation.at(1.1).standing);
+  EXPECT_TRUE(expectation.at(1.1).stationary);
   EXPECT_FALSE(expectation.at(1.1).current_from_reference);
   EXPECT_FALSE(expectation.last_timestamp_s());
 }

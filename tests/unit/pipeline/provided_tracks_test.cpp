@@ -47,14 +47,14 @@ TEST(ProvidedTracks, ABoxThatIsPushedIsFoundAsByThePatchSearch) {
   EXPECT_EQ(tracks.judged, tracks.frames);
   ASSERT_GT(tracks.score.moving().features, 1000u);
   EXPECT_GE(*tracks.score.recall(), *patches.score.recall() - 0.02);
-  EXPECT_LE(*tracks.score.false_alarms(), *patches.score.false_alarms() + 0.01);
+  EXPECT_LE(*tracks.score.false_positive_rate(), *patches.score.false_positive_rate() + 0.01);
 }
 
 TEST(ProvidedTracks, AStaticRoomIsKept) {
   const Outcome tracks = run<OnTracks>(synthetic::static_room(small(30)));
   EXPECT_EQ(tracks.judged, tracks.frames);
   ASSERT_GT(tracks.score.background().features, 5000u);
-  EXPECT_LE(*tracks.score.false_alarms(), 0.02);
+  EXPECT_LE(*tracks.score.false_positive_rate(), 0.02);
 }
 
 // ---- Tracks that are known exactly ----

@@ -169,5 +169,46 @@ TEST(WrongUse, AScaleThatIsNotTheHosts) {
   expect_hint(said, "unit");
 }
 
+// Doubt outlives a reset: two filters see the same frames, and only one of them has a hint.
+TEST(WrongUse, AHintChangesNoVerdict) {
+  synthetic::SceneOptions options;
+  options.width = 320;
+  options.height = 240;
+  options.frames = 36;
+  const synthetic::Scene scene = synthetic::walking_people(options);
+  SyntheticSequence sequence(scene);
+  SyntheticFrame frame;
+  FrameFilter<> doubting(scene.camera), fresh(scene.camera);
+  std::size_t hints = 0, dropped = 0;
+  const auto render = [&](int f) {
+    sequence.render(f, frame);
+    std::vector<cv::KeyPoint> found;
+    cv::ORB::create(300)->detect(as_mat(frame.gray.view()), found);
+    std::vector<Vector2f> keypoints;
+    for (const cv::KeyPoint& keypoint : found) keypoints.emplace_back(keypoint.pt.x, keypoint.pt.y);
+    return keypoints;
+  };
+  for (int f = 0; f < sequence.size(); ++f) {
+    std::vector<Vector2f> in_one_quarter = render(f);
+    for (Vector2f& keypoint : in_one_quarter) keypoint *= 0.49f;
+    doubting.filter_frame(frame.view(), in_one_quarter);
+  }
+  doubting.reset();
+  for (int f = 0; f < sequence.size(); ++f) {
+    const std::vector<Vector2f> keypoints = render(f);
+    const FrameResult& with_hint = doubting.filter_frame(frame.view(), keypoints);
+    const FrameResult& without = fresh.filter_frame(frame.view(), keypoints);
+    hints += *with_hint.hint() != '\0';
+    EXPECT_STREQ(without.hint(), "");
+    for (std::size_t i = 0; i < keypoints.size(); ++i) {
+      ASSERT_EQ(with_hint.label(i).log_odds, without.label(i).log_odds) << "frame " << f << ", feature " << i;
+      ASSERT_EQ(with_hint.keep()[i], without.keep()[i]);
+      dropped += without.keep()[i] == 0;
+    }
+  }
+  EXPECT_GE(hints, 5u);
+  EXPECT_GE(dropped, 100u);
+}
+
 }  // namespace
 }  // namespace stillpoint::wrong_use_test

@@ -39,7 +39,7 @@ class PropagatedPriorTest : public testing::Test {
   struct Change {
     Vector2f thing = Vector2f::Zero();  ///< pixels
     Vector2f wall = Vector2f::Zero();
-    double camera_x_m = 0.0;  ///< of a standing point in the camera's frame, of which the pipeline is told
+    double camera_x_m = 0.0;  ///< of a static point in the camera's frame, of which the pipeline is told
     int skipped = 0;          ///< frames before this one, of which the prior is not told
     bool has_features = true, is_observed = true, is_motion_known = true;
   };

@@ -107,7 +107,7 @@ TEST_F(SampsonScoreTest, TooFewMatchesAndUnmatchedFeaturesAreNotScored) {
   EXPECT_TRUE(std::isnan(score_of(4)));
 }
 
-// With noise of 0.7 px, measured, standing points score −0.5 + E[½ min(χ²₁, …)] = 0 on average.
+// With noise of 0.7 px, measured, static points score −0.5 + E[½ min(χ²₁, …)] = 0 on average.
 TEST_F(SampsonScoreTest, NoiseIsMeasured) {
   Random random(3);
   for (int i = 0; i < 3000; ++i)

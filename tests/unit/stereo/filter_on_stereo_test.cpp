@@ -65,7 +65,7 @@ TEST(FilterOnStereo, AStaticRoomStaysWithinTheSetRate) {
   const Outcome outcome = run(synthetic::static_room(small(30)));
   EXPECT_EQ(outcome.judged, outcome.frames);
   ASSERT_GT(outcome.score.background().features, 8000u);
-  EXPECT_LE(outcome.score.false_alarms(), TailGate::Options{}.false_positive_rate);
+  EXPECT_LE(outcome.score.false_positive_rate(), TailGate::Options{}.false_positive_rate);
 }
 
 TEST(FilterOnStereo, APushedBoxIsFound) {
@@ -73,7 +73,7 @@ TEST(FilterOnStereo, APushedBoxIsFound) {
   EXPECT_EQ(outcome.judged, outcome.frames);
   ASSERT_GT(outcome.score.moving().features, 1000u);
   EXPECT_GE(outcome.score.recall(), 0.9);
-  EXPECT_LE(outcome.score.false_alarms(), 0.02);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.02);
 }
 
 }  // namespace

@@ -83,14 +83,11 @@ struct PointResidual {
     y = there.y * inverse_z;
     off_x = camera.fx() * x + camera.cx() - lanes(constraints.pixel.x()...);
     off_y = camera.fy() * y + camera.cy() - lanes(constraints.pixel.y()...);
-    // there = R p + t with p = ray / ρ, so that ∂there / ∂ρ = −R p / ρ = (t − there) z.
-    const Vector3d t = translation_of(reference_from_current);
     const Real spread = lanes((constraints.point.z() * constraints.inverse_depth_sigma)...) * inverse_z;
-    const Real back_z = t.z() - there.z;
-    const Real along_x = camera.fx() * spread * (t.x() - there.x - x * back_z);
-    const Real along_y = camera.fy() * spread * (t.y() - there.y - y * back_z);
+    const EpipolarShift<Real> shift(camera, translation_of(reference_from_current), there.x, there.y, there.z, x, y,
+                                    spread);
     const Real variance = lanes((constraints.pixel_sigma * constraints.pixel_sigma)...);
-    const ReprojectionInformation<Real> information(variance, along_x, along_y);
+    const ReprojectionInformation<Real> information(variance, shift);
     xx = information.xx;
     xy = information.xy;
     yy = information.yy;

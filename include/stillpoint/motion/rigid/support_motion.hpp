@@ -46,9 +46,9 @@ class SupportMotion {
     std::uint64_t seed = Random::kDefaultSeed;
   };
   Options options;
-  SupportConstraints constraints;  ///< noise and weights of what supports a motion
-  StationaryCamera standing;       ///< when has the camera no motion at all?
-  Inertia inertia;                 ///< what its velocity knows
+  SupportConstraints constraints;      ///< noise and weights of what supports a motion
+  StationaryCamera stationary_camera;  ///< when has the camera no motion at all?
+  Inertia inertia;                     ///< what its velocity knows
 
   // No options in files.
   double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
@@ -80,17 +80,16 @@ class SupportMotion {
     const bool differ =
         sampled.support > past.support &&
         problem.distance_px(sampled.reference_from_current, past.reference_from_current) > kSameMotion_px;
-    const bool knows_past =
-        prior.current_from_reference.has_value();  // else it began with no motion, for want of better
+    const bool knows_past = prior.current_from_reference.has_value();  // else `past` began at the identity
     // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
     const bool is_inverted =
         differ && knows_past &&
         problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
             past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& trusted = sampled.support > past.support && !is_inverted ? sampled : past;
-    motion.standing = standing.since_last_frame(observations, prior.standing) &&
-                      nothing_creeps(points, features, matches, camera, workspace);
-    const Hypothesis chosen = motion.standing ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
+    motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
+                        nothing_creeps(points, features, matches, camera, workspace);
+    const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
 
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
     const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
@@ -101,7 +100,7 @@ class SupportMotion {
     motion.inliers = problem.inliers(chosen.reference_from_current);
     motion.current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
     Matrix6d information = chosen.information;
-    if (!motion.standing && inertia.applies(prior))
+    if (!motion.stationary && inertia.applies(prior))
       motion.current_from_reference = inertia.fuse(motion.current_from_reference, information, prior);
     set_covariance(information, motion);
     return motion;
@@ -113,8 +112,8 @@ class SupportMotion {
   void refine(Observations& observations, const Camera& camera, const MotionPrior& prior, Motion& motion,
               Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
-    if (motion.standing && standing.since_older_frames(observations)) return;
-    motion.standing = false;
+    if (motion.stationary && stationary_camera.since_older_frames(observations)) return;
+    motion.stationary = false;
     const span<OlderFrame> frames = observations.matches.past_observations.frames();
     const span<PointConstraint> points = constraints.from_past_observations(observations, camera, workspace);
     if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
@@ -138,12 +137,12 @@ class SupportMotion {
   }
 
  private:
-  static constexpr double kConfidence = 0.9996;    // of not missing what explains more than the past
-  static constexpr double kSameMotion_px = 1.0;    // hypotheses that move the matches less apart on average are one
-  static constexpr double kLeastSupport = 0.08;    // share of all weight that the motion must explain
-  static constexpr double kSureSupport = 0.4;      // less is doubtful where depths do not fit near what is expected
-  static constexpr double kUndisputedLoss = 12.6;  // squared sigmas that suspects in full may cost the trusted
-  static constexpr double kCreepGain = 60.0;       // squared sigmas by which a motion must beat standing still
+  static constexpr double kConfidence = 0.9996;     // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;     // hypotheses that move the matches less apart on average are one
+  static constexpr double kLeastSupport = 0.08;     // share of all weight that the motion must explain
+  static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
+  static constexpr double kMostTrustedLoss = 12.6;  // χ²₆ at 95 %: what suspects in full may cost the trusted
+  static constexpr double kCreepGain = 60.0;        // squared sigmas by which a motion must beat the identity
   static constexpr double kLeastPixelSigma =
       0.1;  // of the measured noise, pixels; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
@@ -181,7 +180,7 @@ class SupportMotion {
     const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < points.size(); ++k)
-      if (standing.at_rest(matches, features[k])) resting[count++] = points[k];
+      if (stationary_camera.at_rest(matches, features[k])) resting[count++] = points[k];
     Pose poses[2] = {Pose::Identity(), Pose::Identity()};
     SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
     calibrate(Pose::Identity(), problem, workspace);
@@ -210,7 +209,7 @@ class SupportMotion {
     problem.swap_trust();
     if (all.information.isZero()) return trusted;
     all.support = problem.support(all.reference_from_current);
-    return problem.squared_residuals_of(trusted.support - all.support) < kUndisputedLoss ? all : trusted;
+    return problem.squared_residuals_of(trusted.support - all.support) < kMostTrustedLoss ? all : trusted;
   }
 
   static bool any_depth(const Matches& matches) noexcept {
