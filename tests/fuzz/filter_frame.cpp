@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utility.hpp>
@@ -16,6 +15,8 @@
 #include <vector>
 
 #include "bytes.hpp"
+#include "frame_images.hpp"
+#include "judged_frames.hpp"
 #include "shim.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/opencv.hpp"
@@ -33,34 +34,6 @@ Camera make_camera(Bytes& bytes) {
 }
 
 /// A texture that moves, so that there is something to match.
-cv::Mat make_gray(Bytes& bytes, int width, int height) {
-  cv::Mat gray(height, width, CV_8UC1);
-  const int shift = bytes.integer(-3, 3), seed = bytes.byte();
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u) {
-      const auto cell = static_cast<unsigned>((u + shift) / 3 * 73 + v / 3 * 151 + seed % 4);
-      gray.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(cell * 2654435761u >> 13);
-    }
-  return gray;
-}
-
-cv::Mat make_depth(Bytes& bytes, int width, int height) {
-  const int kind = bytes.integer(0, 9);
-  if (kind == 0) return {};
-  if (kind == 1) width = bytes.integer(1, 60), height = bytes.integer(1, 60);
-  if (kind <= 5) {
-    cv::Mat depth(height, width, CV_16UC1, cv::Scalar(bytes.integer(0, 65535)));
-    for (int i = bytes.integer(0, 40); i > 0; --i)
-      depth.at<std::uint16_t>(bytes.byte() % height, bytes.byte() % width) =
-          static_cast<std::uint16_t>(bytes.integer(0, 65535));
-    return depth;
-  }
-  cv::Mat depth(height, width, CV_32FC1, cv::Scalar(static_cast<double>(bytes.single(0, 8))));
-  for (int i = bytes.integer(0, 40); i > 0; --i)
-    depth.at<float>(bytes.byte() % height, bytes.byte() % width) = bytes.single(0, 8);
-  return depth;
-}
-
 /// A pose near the identity, of which some numbers may be anything.
 Pose make_pose(Bytes& bytes) {
   Pose pose = Pose::Identity();
@@ -87,12 +60,7 @@ void set_boxes(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
     filter.prior.detections = detections;
 }
 
-/// How many frames were judged: inputs of which none is say nothing of the stages.
-struct Judged {
-  std::size_t frames = 0, judged = 0;
-  ~Judged() { std::fprintf(stderr, "judged: %zu of %zu frames\n", judged, frames); }
-};
-Judged judged_frames;
+JudgedFrames frames_of_filter("the filter");
 
 /// @param depth_factor  units per metre of a 16-bit depth
 /// @return              how many keypoints it had
@@ -108,8 +76,7 @@ std::size_t filter_one(Bytes& bytes, double timestamp_s, double depth_factor, Fr
   const FrameResult& result =
       filter.filter_frame(FrameView(gray, DepthView(depth, depth_factor), timestamp_s), keypoints);
 
-  ++judged_frames.frames;
-  judged_frames.judged += judged(result.status());
+  frames_of_filter.count(judged(result.status()));
   require(result.size() == keypoints.size());
   require(result.motion().current_from_reference.matrix().allFinite());
   std::size_t kept = 0;

@@ -6,17 +6,22 @@
 #include "shim.hpp"
 
 #include <cstddef>
+#include <cstring>
 #include <opencv2/core.hpp>
 #include <stdexcept>
 #include <vector>
 
 #include "bytes.hpp"
+#include "frame_images.hpp"
+#include "judged_frames.hpp"
 #include "stillpoint_shim.hpp"
 
 namespace fuzz {
 namespace {
 
 namespace shim = stillpoint_shim;
+
+JudgedFrames frames_of_shim("the shim");
 
 shim::Filter make_shim(Bytes& bytes, int width, int height) {
   shim::Camera camera;
@@ -37,12 +42,14 @@ shim::Filter make_shim(Bytes& bytes, int width, int height) {
   return shim::Filter(camera, settings);
 }
 
-cv::Mat make_image(Bytes& bytes, int width, int height, int usual_type) {
+/// One that `usual` makes, or any other.
+cv::Mat make_image(Bytes& bytes, int width, int height, cv::Mat (*usual)(Bytes&, int, int)) {
   constexpr int kTypes[] = {CV_8UC1, CV_8UC3, CV_16UC1, CV_32FC1, CV_64FC1, CV_8UC4, CV_32SC2};
   const int kind = bytes.integer(0, 40);
-  if (kind == 0) return {};
+  if (kind >= 9 && width > 0 && height > 0) return usual(bytes, width, height);
+  if (kind == 0 || kind >= 9) return {};
   if (kind == 1) width = bytes.integer(1, 60);
-  cv::Mat image(height, width, kind >= 2 && kind < 9 ? kTypes[kind - 2] : usual_type, cv::Scalar::all(bytes.byte()));
+  cv::Mat image(height, width, kTypes[kind >= 2 ? kind - 2 : 0], cv::Scalar::all(bytes.byte()));
   for (int i = bytes.integer(0, 60); i > 0; --i)
     image.ptr(bytes.byte() % height)[static_cast<std::size_t>(bytes.byte()) % image.step[0]] = bytes.byte();
   return image;
@@ -75,12 +82,15 @@ void run_shim(Bytes& bytes) try {
       filter.feedback(pose);
     }
     if (bytes.integer(0, 31) == 0) filter.reset();
-    const cv::Mat image = make_image(bytes, width, height, CV_8UC1), depth = make_image(bytes, width, height, CV_16UC1);
+    const cv::Mat image = make_image(bytes, width, height, make_gray);
+    const cv::Mat depth = make_image(bytes, width, height, make_depth);
     std::vector<cv::Point2f> points;
     for (int v = 0; v < height; v += 5)
       for (int u = 0; u < width; u += 5) points.emplace_back(static_cast<float>(u), static_cast<float>(v));
     for (int i = bytes.integer(0, 9); i > 0; --i) points.emplace_back(bytes.single(-2, 50), bytes.single(-2, 50));
-    require(filter.filter_frame(image, depth, timestamp_s, points).keep.size() == points.size());
+    const shim::Result& result = filter.filter_frame(image, depth, timestamp_s, points);
+    frames_of_shim.count(std::strcmp(result.status, "ok") == 0);
+    require(result.keep.size() == points.size());
     std::vector<float> weights;
     filter.weights(weights);
     filter.mask(mask, bytes.integer(-3, 60));

@@ -20,6 +20,7 @@
 #include "stillpoint/match/provided_matches.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 #include "unit/pipeline/clip.hpp"
 
 namespace stillpoint {
@@ -112,7 +113,8 @@ class OptionRanges : public testing::Test {
   Clip clip{3, 5};
 };
 
-using RangedSets = testing::Types<DefaultPolicies, TrackPolicies, PaperPolicies, PaperRigidPolicies, MonocularPolicies>;
+using RangedSets =
+    testing::Types<WithMovers<DefaultPolicies>, TrackPolicies, PaperPolicies, PaperRigidPolicies, MonocularPolicies>;
 TYPED_TEST_SUITE(OptionRanges, RangedSets);
 
 // From the first frame on, and set between two frames.
