@@ -64,7 +64,7 @@ class ObjectIdentity {
   }
 
   /// May it be a limb that swings faster than the body it hangs on? Nobody knows until it has been seen for a while. A
-  /// foot may be all that is seen of a leg, farther from the body.
+  /// foot may be all that is seen of a leg, farther from the body. What no limb of that body does is another object.
   static bool may_be_limb(const std::vector<TrackedObject>& objects, std::size_t candidate, double timestamp_s) {
     constexpr double kStride_s = 0.5, kMoves_m_s = 0.1, kFoot_m = 1.0;
     const TrackedObject& part = objects[candidate];
@@ -73,8 +73,7 @@ class ObjectIdentity {
       if (&object == &part || !object.is_confirmed || !object.is_seen || !(object.mean_speed() > kMoves_m_s) ||
           !is_small(part, object))
         return false;
-      const double apart_m = gap_m(part, object);
-      return apart_m < kLimb_m || (apart_m < kFoot_m && swing(part, object) < 1.0);
+      return gap_m(part, object) < kFoot_m && swing(part, object) < 1.0;
     });
   }
 

@@ -113,8 +113,11 @@ TEST(ObjectIdentity, AFootFarBelowItsBodyWaitsForAStride) {
 }
 
 TEST(ObjectIdentity, WhatMayBeALimbWaitsForAStride) {
-  std::vector<TrackedObject> objects = {walker(1, {0, 0, 2}), strip({0.3, 1.2, 2}, {2.5, 0, 0})};
+  std::vector<TrackedObject> objects = {walker(1, {0, 0, 2}), strip({0.3, 1.2, 2}, {2.2, 0, 0})};
   EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects[1].mean_velocity.x() = 2.4;  // (2.4 - 0.8) / (0.3 + 1.5 · 0.8) of what limbs do
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects[1].mean_velocity.x() = 2.2;
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s + 0.5));
   objects[1].members = 60;  // too large for a limb
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
