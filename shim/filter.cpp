@@ -84,7 +84,7 @@ class Engine {
   /// Changes all of them or, where it throws, none.
   void change_settings(const Settings& settings) {
     const double factor = settings.depth_factor;
-    require(factor >= 0 && std::isfinite(factor), "settings: depth_factor", factor,
+    require(factor == 0 || stillpoint::DepthView::is_unit(factor), "settings: depth_factor", factor,
             "units per metre: 1000 for millimetres, 5000 for TUM's files, 0 without 16-bit depth");
     require(settings.fewest_features >= 0, "settings: fewest_features", settings.fewest_features, "0 or more");
     const stillpoint::AnyDepthNoise noise_before = filter_.depth_noise;

@@ -115,7 +115,7 @@ stillpoint::FrameView frame_of(const py::object& image, const py::object& depth,
   if (depth.is_none()) return frame;
   frame.depth = stillpoint::DepthView(depth_of(depth), depth_factor.value_or(0.0));
   const bool is_raw = frame.depth.image.format == stillpoint::PixelFormat::depth16;
-  if (is_raw && !(frame.depth.factor > 0))
+  if (is_raw && !stillpoint::DepthView::is_unit(frame.depth.factor))
     throw stillpoint::Error("depth_factor is " + (depth_factor ? stillpoint::option_text(*depth_factor) : "missing") +
                             ", expected what a depth of uint16 counts per metre: 1000 for millimetres (ROS, RealSense, "
                             "Azure Kinect), 5000 for the TUM benchmark");

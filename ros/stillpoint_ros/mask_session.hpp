@@ -37,7 +37,8 @@ template <class Visit>
 void each_option(MaskOptions& options, Visit& visit) {
   visit("features", options.features, stillpoint::OptionRange{1, 100000});
   visit("margin_px", options.margin_px, stillpoint::OptionRange{0, 1000});
-  visit("depth_units_per_metre", options.depth_units_per_metre, stillpoint::OptionRange{1e-3, 1e6});
+  visit("depth_units_per_metre", options.depth_units_per_metre,
+        stillpoint::OptionRange{stillpoint::DepthView::kLeastFactor, stillpoint::DepthView::kMostFactor});
   visit("follow_movers", options.follow_movers);
 }
 

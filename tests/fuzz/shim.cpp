@@ -81,6 +81,17 @@ void run_shim(Bytes& bytes) try {
       pose[3] = bytes.number(-1, 1);
       filter.feedback(pose);
     }
+    if (bytes.integer(0, 7) == 0) {
+      shim::Settings settings = filter.settings();
+      settings.fewest_features = bytes.integer(-1, 2000);
+      settings.depth_factor = bytes.number(-1, 6000);
+      filter.change_settings(settings);
+    }
+    if (bytes.integer(0, 7) == 0) {
+      double motion[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+      motion[bytes.byte() % 16] = bytes.number(-1, 1);
+      filter.expect_motion(motion);
+    }
     if (bytes.integer(0, 31) == 0) filter.reset();
     const cv::Mat image = make_image(bytes, width, height, make_gray);
     const cv::Mat depth = make_image(bytes, width, height, make_depth);

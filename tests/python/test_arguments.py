@@ -178,6 +178,7 @@ GRAY, DEPTH, PIXELS = np.zeros((240, 320), np.uint8), np.ones((240, 320), np.uin
      "depth has strides|depth is not aligned"),
     (dict(depth_factor=None), stillpoint.Error, "depth_factor is missing, expected .* 1000 for millimetres"),
     (dict(depth_factor=0), stillpoint.Error, "depth_factor is 0, expected"),
+    (dict(depth_factor=1e-300), stillpoint.Error, "depth_factor is 1e-300, expected"),
     (dict(depth_factor=float("nan")), stillpoint.Error, "depth_factor is nan, expected"),
     (dict(depth=DEPTH.astype(np.float32)), stillpoint.Error, "depth_factor is 1000 for a depth of float32, expected none"),
     (dict(keypoints=None), TypeError, "keypoints are NoneType, expected a NumPy array"),

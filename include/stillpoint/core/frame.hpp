@@ -21,6 +21,12 @@ struct DepthView {
   /// used for float images.
   double factor = 0.0;
 
+  /// The coarsest and the finest unit of 16-bit depth: kilometres and micrometres.
+  static constexpr double kLeastFactor = 1e-3, kMostFactor = 1e6;
+  static constexpr bool is_unit(double units_per_metre) noexcept {
+    return units_per_metre >= kLeastFactor && units_per_metre <= kMostFactor;  // false for NaN
+  }
+
   DepthView() = default;
 
   /// Of a float image in metres; of a 16-bit one with what `units_per_metre` says.

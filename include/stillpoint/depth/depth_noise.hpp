@@ -67,6 +67,19 @@ struct AnyDepthNoise {
   }
 };
 
+template <class Visit>
+void each_option(StereoNoise& noise, Visit& visit) {
+  visit("focal_px", noise.focal_px, OptionRange{1, 1e5});
+  visit("baseline_m", noise.baseline_m, OptionRange{1e-3, 100});
+  visit("disparity_sigma_px", noise.disparity_sigma_px, OptionRange{1e-3, 100});
+}
+
+template <class Visit>
+void each_option(TimeOfFlightNoise& noise, Visit& visit) {
+  visit("constant_m", noise.constant_m, OptionRange{1e-6, 10});
+  visit("per_metre", noise.per_metre, OptionRange{0, 10});
+}
+
 /// The model's own parameters stand beside its name.
 template <class Visit>
 void each_option(AnyDepthNoise& noise, Visit& visit) {
@@ -77,15 +90,8 @@ void each_option(AnyDepthNoise& noise, Visit& visit) {
     if (model == 1) noise.model = StereoNoise{};
     if (model == 2) noise.model = TimeOfFlightNoise{};
   }
-  if (auto* const stereo = std::get_if<StereoNoise>(&noise.model)) {
-    visit("focal_px", stereo->focal_px, OptionRange{1, 1e5});
-    visit("baseline_m", stereo->baseline_m, OptionRange{1e-3, 100});
-    visit("disparity_sigma_px", stereo->disparity_sigma_px, OptionRange{1e-3, 100});
-  }
-  if (auto* const tof = std::get_if<TimeOfFlightNoise>(&noise.model)) {
-    visit("constant_m", tof->constant_m, OptionRange{1e-6, 10});
-    visit("per_metre", tof->per_metre, OptionRange{0, 10});
-  }
+  if (auto* const stereo = std::get_if<StereoNoise>(&noise.model)) each_option(*stereo, visit);
+  if (auto* const time_of_flight = std::get_if<TimeOfFlightNoise>(&noise.model)) each_option(*time_of_flight, visit);
   visit("scale", noise.scale, OptionRange{1e-3, 1e3});
 }
 

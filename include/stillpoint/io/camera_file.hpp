@@ -15,6 +15,8 @@
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/distortion.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/yaml_file.hpp"
 
@@ -98,8 +100,10 @@ inline std::optional<double> read_baseline(const YamlFile& fields) {
 inline RgbdCamera read_camera(const std::filesystem::path& file) {
   const YamlFile fields(file);
   const Camera camera = detail::read_intrinsics(fields);
-  return {camera, fields.positive("depth_factor", "the positive number that a depth image counts per metre"),
-          detail::read_baseline(fields)};
+  const double factor = fields.positive("depth_factor", "the positive number that a depth image counts per metre");
+  if (!DepthView::is_unit(factor))
+    fields.fail("depth_factor", "is " + option_text(factor), "what a depth image counts per metre: 0.001 to 1000000");
+  return {camera, factor, detail::read_baseline(fields)};
 }
 
 /// Reads the same file for images without depth: `depth_factor` may be missing and is not looked at.

@@ -78,7 +78,7 @@ inline constexpr std::array<ReplacedOption, 121> kReplacedOptions = {{
     {"ego_motion.standing.rest_px", "fixed at 0.3: three sigmas of a corner at rest"},
     {"ego_motion.standing.begins_share", "fixed at 0.9: of the corners"},
     {"ego_motion.standing.majority_share", "fixed at 0.5: of the corners"},
-    {"ego_motion.standing.continues_share", "fixed at 0.1: of the corners"},
+    {"ego_motion.standing.continues_share", "fixed at 0.05: of the corners"},
     {"ego_motion.inertia.correlated", "fixed at 12: measured on recordings"},
     {"ego_motion.inertia.degrees_of_freedom", "fixed at 10: of Student's t"},
     {"scorer.alike_share", "fixed at 0.5: of scorer.pixel_sigma"},

@@ -31,8 +31,7 @@ struct FrameCheck {
     const PixelFormat depth = frame.depth.image.format;
     const bool is_raw = depth == PixelFormat::depth16;
     if (!frame.depth.empty() && !is_raw && depth != PixelFormat::depth32f) return Status::unsupported_image;
-    if (!frame.depth.empty() && is_raw && !(frame.depth.factor >= kCoarsest && frame.depth.factor <= kFinest))
-      return Status::depth_unit_missing;
+    if (!frame.depth.empty() && is_raw && !DepthView::is_unit(frame.depth.factor)) return Status::depth_unit_missing;
     for (const ImageView* view : {&frame.gray, &frame.colour})
       if (!view->empty() && !has_size(*view, camera)) return Status::size_changed;
     if (!(std::abs(frame.timestamp_s) < kLatest_s)) return Status::invalid_time;
@@ -58,7 +57,6 @@ struct FrameCheck {
   }
 
  private:
-  static constexpr double kCoarsest = 1e-3, kFinest = 1e6;  // units of 16-bit depth per metre: kilometres, micrometres
   static constexpr double kLatest_s = 1e11;  // the year 5138; nanoseconds since 1970 are 10 million times that
 
   /// Looks at some hundred pixels.

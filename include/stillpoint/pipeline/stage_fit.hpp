@@ -44,6 +44,7 @@ STILLPOINT_HAS_NAME(expect_dynamic);
 STILLPOINT_HAS_NAME(observe);
 STILLPOINT_HAS_NAME(survey);
 STILLPOINT_HAS_NAME(look_back);
+STILLPOINT_HAS_NAME(reset);
 #undef STILLPOINT_HAS_NAME
 
 }  // namespace detail
@@ -160,6 +161,10 @@ struct OptionalMembers {
   static_assert(learns<typename Policies::Gate>::value || !detail::has_learn<typename Policies::Gate>::value,
       "stillpoint: Policies::Gate has a member learn, but not void learn(const Observations&, span<const Label>); see "
       "docs/extending.md");
+  static_assert(resets<typename Policies::Gate>::value || !detail::has_reset<typename Policies::Gate>::value,
+      "stillpoint: Policies::Gate has a member reset, but not void reset(); see docs/extending.md");
+  static_assert(resets<typename Policies::Prior>::value || !detail::has_reset<typename Policies::Prior>::value,
+      "stillpoint: Policies::Prior has a member reset, but not void reset(); see docs/extending.md");
   static_assert(refines<typename Policies::EgoMotion, Camera>::value || !detail::has_refine<typename Policies::EgoMotion>::value,
       "stillpoint: Policies::EgoMotion has a member refine, but not void refine(Observations&, const Camera&, const "
       "MotionPrior&, Motion&, Workspace&); see docs/extending.md");

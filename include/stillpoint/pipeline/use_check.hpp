@@ -79,9 +79,12 @@ class UseCheck {
         return "16-bit depth needs its unit: write DepthView::millimetres(depth) for ROS, RealSense and Azure Kinect, "
                "DepthView::tum(depth) for the TUM benchmark.";
       case Status::implausible_depth:
-        return "Half of the depths are beyond a kilometre: float depth is in metres, yours looks like millimetres.";
+        return "Half of the depths are beyond a kilometre: float depth is in metres, and 16-bit depth needs its units "
+               "per "
+               "metre, 1000 for millimetres.";
       case Status::size_changed:
         return "The image is not of the camera's size: give the intrinsics of this resolution.";
+      case Status::invalid_options: return "An option is out of its range: options_error() names it.";
       case Status::invalid_time: return "Time is in seconds: divide nanoseconds by 1e9.";
       default: break;
     }

@@ -72,9 +72,7 @@ struct TrackPolicies : DefaultPolicies {
   using Matcher = ProvidedMatches;
 };
 struct StereoPolicies : DefaultPolicies {
-  struct DepthNoise : AnyDepthNoise {
-    DepthNoise() : AnyDepthNoise(StereoNoise{}) {}
-  };
+  using DepthNoise = StereoNoise;
 };
 struct TimeOfFlightPolicies : DefaultPolicies {
   struct DepthNoise : AnyDepthNoise {

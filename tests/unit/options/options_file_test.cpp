@@ -127,6 +127,8 @@ std::size_t visited(Group&& group) {
 TEST(StageOptions, NoFieldIsLeftOut) {
   EXPECT_EQ(visited(FrameCheck()), field_count<FrameCheck::Options>());
   EXPECT_EQ(visited(MaskPrediction()), field_count<MaskPrediction::Options>());
+  EXPECT_EQ(visited(StereoNoise()), field_count<StereoNoise>());
+  EXPECT_EQ(visited(TimeOfFlightNoise()), field_count<TimeOfFlightNoise>());
   EXPECT_EQ(visited(BoxPrior()), field_count<BoxPrior::Options>());
   EXPECT_EQ(visited(PropagatedPrior()), visited(BoxPrior()) + field_count<PropagatedPrior::Carrying>());
   EXPECT_EQ(visited(LucasKanade()), field_count<LucasKanade::Options>());

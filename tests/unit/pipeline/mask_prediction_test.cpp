@@ -225,6 +225,12 @@ TEST_F(MaskPredictionTest, WhatLeavesTheImageOrIsNotFiniteIsLeftOut) {
   EXPECT_EQ(dropped(), 0);
 }
 
+TEST_F(MaskPredictionTest, TheGreatestMarginDropsAll) {
+  add({70, 56}, {80, 60}, Verdict::dynamic);
+  predict(std::numeric_limits<int>::max());
+  EXPECT_EQ(dropped(), view.width * view.height);
+}
+
 TEST_F(MaskPredictionTest, NegativeMarginIsNone) {
   add({80, 60}, {80, 60}, Verdict::dynamic);
   predict(-50);

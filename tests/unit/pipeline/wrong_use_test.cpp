@@ -111,6 +111,54 @@ TEST(WrongUse, FloatDepthInMillimetres) {
   expect_hint(said, "millimetres");
 }
 
+// RealSense's depth scale, metres per unit, in place of units per metre; and a factor of 1.
+TEST(WrongUse, MetresPerUnitInPlaceOfUnitsPerMetre) {
+  for (const double factor : {0.001, 1.0}) {
+    const Said said = after_a_second([factor](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+      return filter.filter_frame({frame.gray, DepthView(frame.depth, factor), frame.time_s}, frame.keypoints);
+    });
+    EXPECT_EQ(said.status, Status::implausible_depth) << factor;
+    expect_hint(said, "units per metre");
+  }
+}
+
+TEST(WrongUse, NoImage) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({cv::Mat(), frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::no_image);
+  expect_hint(said, "empty");
+}
+
+TEST(WrongUse, ImageOfAnotherKind) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    cv::Mat real;
+    frame.gray.convertTo(real, CV_32F, 1.0 / 255);
+    return filter.filter_frame({real, frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::unsupported_image);
+  expect_hint(said, "8-bit");
+}
+
+TEST(WrongUse, AnOptionOutOfItsRange) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    filter.gate.options.false_positive_rate = 5;
+    return filter.filter_frame({frame.gray, frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::invalid_options);
+  expect_hint(said, "options_error()");
+}
+
+TEST(WrongUse, FramesThatRunBackwards) {
+  double time_s = 100;
+  const Said said = after_a_second([&time_s](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    return filter.filter_frame({frame.gray, frame.view(), time_s -= 0.033}, frame.keypoints);
+  });
+  EXPECT_EQ(said.status, Status::out_of_order);
+  EXPECT_TRUE(said.warnings.has(Warning::times_far_apart));
+  expect_hint(said, "does it grow");
+}
+
 TEST(WrongUse, TimeInNanoseconds) {
   const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
     return filter.filter_frame({frame.gray, frame.view(), 1e9 * (1.7e9 + frame.time_s)}, frame.keypoints);

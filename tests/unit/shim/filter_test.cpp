@@ -367,8 +367,10 @@ TEST(ShimFilter, WrongSettingsAreNamed) {
   EXPECT_EQ(refusal_of(camera(), settings),
             "stillpoint: settings: depth_factor is -1000.000000, expected units per metre: 1000 for millimetres, 5000 "
             "for TUM's files, 0 without 16-bit depth");
-  settings.depth_factor = std::nan("");
-  EXPECT_NE(refusal_of(camera(), settings), "accepted");
+  for (const double no_unit : {std::nan(""), 1e-300, 1e9}) {
+    settings.depth_factor = no_unit;
+    EXPECT_NE(refusal_of(camera(), settings), "accepted") << no_unit;
+  }
   settings = {};
   settings.false_positive_rate = std::nan("");
   EXPECT_EQ(refusal_of(camera(), settings),
