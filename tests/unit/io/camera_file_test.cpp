@@ -108,7 +108,7 @@ TEST(ReadCamera, NamesAValueThatMakesNoSense) {
   EXPECT_EQ(message_of(yaml({{"depth_factor", "0"}})),
             "depth_factor is 0.000000, expected the positive number that a depth image counts per metre");
   EXPECT_EQ(message_of(yaml({{"depth_factor", "1e9"}})),
-            "depth_factor is 1000000000, expected what a depth image counts per metre: 0.001 to 1000000");
+            "depth_factor is 1e+09, expected what a depth image counts per metre: 0.001 to 1000000");
 }
 
 TEST(ReadCamera, NamesAModelOrCoefficientThatDoesNotFit) {
