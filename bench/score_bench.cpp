@@ -28,10 +28,10 @@ void BM_OffsetScore(benchmark::State& state) {
     benchmark::DoNotOptimize(scores.data());
     benchmark::ClobberMemory();
   }
-  std::vector<double> standing, moving;
+  std::vector<double> still, moving;
   for (std::size_t i = 0; i < options.points; ++i)
-    (scene.outlier[i] != 0 ? moving : standing).push_back(static_cast<double>(scores[i].value));
-  state.counters["standing"] = median(standing);
+    (scene.outlier[i] != 0 ? moving : still).push_back(static_cast<double>(scores[i].value));
+  state.counters["static"] = median(still);
   state.counters["moving"] = median(moving);
 }
 BENCHMARK(BM_OffsetScore)->ArgName("points")->Arg(500)->Arg(1000)->Unit(benchmark::kMicrosecond);

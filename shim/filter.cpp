@@ -85,7 +85,7 @@ class Engine {
   void change_settings(const Settings& settings) {
     const double factor = settings.depth_factor;
     require(factor == 0 || stillpoint::DepthView::is_unit(factor), "settings: depth_factor", factor,
-            "units per metre: 1000 for millimetres, 5000 for TUM's files, 0 without 16-bit depth");
+            "0.001 to 1000000 units per metre: 1000 for millimetres, 5000 for TUM's files; 0 without 16-bit depth");
     require(settings.fewest_features >= 0, "settings: fewest_features", settings.fewest_features, "0 or more");
     const stillpoint::AnyDepthNoise noise_before = filter_.depth_noise;
     const auto gate_before = filter_.gate.options;

@@ -47,9 +47,9 @@ class ImageOffsets {
                      matches.reference);
     for (std::size_t i = 0; i < offsets.size(); ++i) {
       if (!matches.matched(i) || !matches.reference.has_depth(i)) continue;
-      const stillpoint::Vector3d standing = motion.current_from_reference * matches.reference.point[i];
-      if (!(standing.z() > 0)) continue;
-      offsets[i] = record.pixels[i] - camera.distort(camera.project(standing)).cast<float>();
+      const stillpoint::Vector3d moved = motion.current_from_reference * matches.reference.point[i];
+      if (!(moved.z() > 0)) continue;
+      offsets[i] = record.pixels[i] - camera.distort(camera.project(moved)).cast<float>();
     }
     return offsets;
   }

@@ -39,8 +39,8 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
   if (const auto recall = run.labels.recall())
     html += tile("moving features dropped", percent_words(*recall),
                  "recall, of " + std::to_string(run.labels.moving().features) + " features");
-  if (const auto alarms = run.labels.false_positive_rate())
-    html += tile("background dropped", percent_words(*alarms),
+  if (const auto dropped = run.labels.false_positive_rate())
+    html += tile("background dropped", percent_words(*dropped),
                  "false positives, of " + std::to_string(run.labels.background().features) + " features");
   if (figures.kept_share)
     html += tile("features kept", percent_words(*figures.kept_share),

@@ -116,9 +116,10 @@ stillpoint::FrameView frame_of(const py::object& image, const py::object& depth,
   frame.depth = stillpoint::DepthView(depth_of(depth), depth_factor.value_or(0.0));
   const bool is_raw = frame.depth.image.format == stillpoint::PixelFormat::depth16;
   if (is_raw && !stillpoint::DepthView::is_unit(frame.depth.factor))
-    throw stillpoint::Error("depth_factor is " + (depth_factor ? stillpoint::option_text(*depth_factor) : "missing") +
-                            ", expected what a depth of uint16 counts per metre: 1000 for millimetres (ROS, RealSense, "
-                            "Azure Kinect), 5000 for the TUM benchmark");
+    throw stillpoint::Error(
+        "depth_factor is " + (depth_factor ? stillpoint::option_text(*depth_factor) : "missing") +
+        ", expected what a depth of uint16 counts per metre, 0.001 to 1000000: 1000 for millimetres (ROS, RealSense, "
+        "Azure Kinect), 5000 for the TUM benchmark");
   if (!is_raw && !frame.depth.empty() && depth_factor)
     throw stillpoint::Error("depth_factor is " + stillpoint::option_text(*depth_factor) +
                             " for a depth of float32, expected none: it is in metres");

@@ -25,7 +25,7 @@ one_file() {
   done
 }
 
-sources=(core_only with_opencv with_options)
+sources=(core_only with_opencv with_options with_movers)
 [[ ! -e ${OPENCV_INCLUDE:-/usr/include/opencv4}/opencv2/dnn.hpp ]] || sources+=(with_detector)
 {
   one_file "${sources[@]}"

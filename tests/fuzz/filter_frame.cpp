@@ -33,7 +33,6 @@ Camera make_camera(Bytes& bytes) {
   return {f, f, 0.5 * width, 0.5 * height, width, height};
 }
 
-/// A texture that moves, so that there is something to match.
 /// A pose near the identity, of which some numbers may be anything.
 Pose make_pose(Bytes& bytes) {
   Pose pose = Pose::Identity();

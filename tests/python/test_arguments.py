@@ -132,6 +132,13 @@ def test_no_depth_keeps_all(frames, camera):
     assert results[2].status == Status.no_depth and results[2].keep.all()
 
 
+def test_a_camera_at_rest_is_stationary_and_its_old_name_warns(frames, camera):
+    motion = run(frames[:2], camera)[1].motion
+    with pytest.warns(DeprecationWarning, match="Motion.stationary"):
+        assert motion.standing == motion.stationary
+    assert isinstance(motion.stationary, bool)
+
+
 def test_bad_frames_have_a_status(frames, camera):
     frame_filter = stillpoint.FrameFilter(camera)
     first = frames[0]

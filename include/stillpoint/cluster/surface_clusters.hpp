@@ -38,7 +38,7 @@ class SurfaceClusters {
   };
   Options options;
 
-  // No options in files.
+  // No option in files.
   std::size_t fewest_clusters = 2;
   float split_variance = 9.0f;       ///< a cluster whose scores vary less is one population, squared nats
   double depth_extent_m = 0.04;      ///< what one unit of the clusters' depth coordinate is: a rough surface …

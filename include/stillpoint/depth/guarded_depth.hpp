@@ -17,7 +17,7 @@ namespace stillpoint {
 /// Depth at the rounded pixel, if its 3 × 3 neighbourhood is one surface: at a hole or a jump there is none, and
 /// nothing is interpolated across an edge.
 struct GuardedDepth {
-  // No options in files.
+  // No option in files.
   int fewest_neighbours = 6;  ///< of the nine pixels that must have a depth
   double jump_m = 0.03;       ///< more difference within the neighbourhood is an edge …
   double jump_sigmas = 7.0;   ///< … with this many standard deviations of the depth: the extremes of nine and a slope

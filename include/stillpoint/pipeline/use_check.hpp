@@ -76,12 +76,11 @@ class UseCheck {
       case Status::unsupported_image:
         return "The image must be 8-bit gray or BGR, the depth 16 bit or float: convert them first.";
       case Status::depth_unit_missing:
-        return "16-bit depth needs its unit: write DepthView::millimetres(depth) for ROS, RealSense and Azure Kinect, "
-               "DepthView::tum(depth) for the TUM benchmark.";
+        return "16-bit depth needs its units per metre: write DepthView::millimetres(depth) for ROS, RealSense and "
+               "Azure Kinect, DepthView::tum(depth) for the TUM benchmark.";
       case Status::implausible_depth:
         return "Half of the depths are beyond a kilometre: float depth is in metres, and 16-bit depth needs its units "
-               "per "
-               "metre, 1000 for millimetres.";
+               "per metre, 1000 for millimetres.";
       case Status::size_changed:
         return "The image is not of the camera's size: give the intrinsics of this resolution.";
       case Status::invalid_options: return "An option is out of its range: options_error() names it.";

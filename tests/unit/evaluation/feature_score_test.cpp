@@ -45,6 +45,17 @@ TEST(FilterScore, HandComputed) {
   EXPECT_DOUBLE_EQ(score.parked_dropped().value(), 1.0);
 }
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+TEST(FilterScore, FalseAlarmsIsTheNameOfBefore) {
+  FilterScore score;
+  for (int frame = 0; frame < 2; ++frame)
+    score.add_frame(kLabels, std::vector<Vector2f>{{0, 0}, {2, 0}}, std::vector<std::uint8_t>{0, 1});
+  EXPECT_EQ(score.false_alarms(), score.false_positive_rate());
+  EXPECT_TRUE(score.false_alarms());
+}
+#pragma GCC diagnostic pop
+
 TEST(FilterScore, FirstFrameIsLeftOut) {
   FilterScore score;
   score.add_frame(kLabels, std::vector<Vector2f>{{3, 0}, {0, 0}}, std::vector<std::uint8_t>{0, 0});

@@ -173,14 +173,21 @@ TYPED_TEST_SUITE(DepthNoiseRanges, NoiseSets);
 
 TYPED_TEST(DepthNoiseRanges, BothEndsOfEachAreSafe) {
   for (const Place place : {Place::least, Place::most}) {
+    int options = 0;
     this->each(place, [&](std::size_t option, const std::string& name) {
       if (name.rfind("depth_noise.", 0) != 0) return;
+      ++options;
+      FrameFilter<TypeParam> beyond(Clip::camera());
+      SetOne set_beyond{option, Place::beyond};
+      each_option(beyond, set_beyond);
+      EXPECT_EQ(beyond.options_error().rfind(name + " is ", 0), 0u) << beyond.options_error();
       FrameFilter<TypeParam> filter(Clip::camera());
       SetOne set{option, place};
       each_option(filter, set);
       for (std::size_t f = 0; f < this->clip.frames.size(); ++f)
         EXPECT_TRUE(this->judge(filter, f).motion().current_from_reference.matrix().allFinite()) << name;
     });
+    EXPECT_EQ(options, 3) << "its two or three parameters; of any model, the scale";
   }
 }
 

@@ -176,14 +176,14 @@ TEST(StageFit, EachReplacementInMonocularPoliciesFindsWhoWalksOrIsRefused) {
   EXPECT_EQ((replace_each<MonocularPolicies>({0.25, 0.04})),
             "PatchMatcher, CornerTracker, EpipolarMotion, RigidMotion, SupportMotion, OffsetScore, ReprojectionScore, "
             "MeanGate, RegionClusters, SurfaceClusters, NoMemory, WithMovers")
-      << "each needs depth";
+      << "MeanGate and NoMemory do not go with FlowNeighbours, the others need depth";
 }
 
-// The paper drops what lies in the boxes' corners as well.
 constexpr const char* kRefusedByThePaper =
     "NoDepth, ForegroundPrior, PropagatedPrior, PatchMatcher, CornerTracker, MonocularMotion, ReprojectionScore, "
     "TailGate, SurfaceClusters, FlowNeighbours, EvidenceMemory";
 
+// The paper drops what lies in the boxes' corners as well.
 TEST(StageFit, EachReplacementInPaperPoliciesFindsWhoWalksOrIsRefused) {
   EXPECT_EQ((replace_each<PaperPolicies>({0.3, 0.4})), kRefusedByThePaper);
 }

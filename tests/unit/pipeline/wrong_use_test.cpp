@@ -111,13 +111,13 @@ TEST(WrongUse, FloatDepthInMillimetres) {
   expect_hint(said, "millimetres");
 }
 
-// RealSense's depth scale, metres per unit, in place of units per metre; and a factor of 1.
+// RealSense's depth scales, metres per unit, in place of units per metre; and a factor of 1.
 TEST(WrongUse, MetresPerUnitInPlaceOfUnitsPerMetre) {
-  for (const double factor : {0.001, 1.0}) {
+  for (const double factor : {0.00025, 0.001, 1.0}) {
     const Said said = after_a_second([factor](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
       return filter.filter_frame({frame.gray, DepthView(frame.depth, factor), frame.time_s}, frame.keypoints);
     });
-    EXPECT_EQ(said.status, Status::implausible_depth) << factor;
+    EXPECT_EQ(said.status, factor < 0.001 ? Status::depth_unit_missing : Status::implausible_depth) << factor;
     expect_hint(said, "units per metre");
   }
 }

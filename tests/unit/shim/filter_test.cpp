@@ -365,8 +365,8 @@ TEST(ShimFilter, WrongSettingsAreNamed) {
   stillpoint_shim::Settings settings;
   settings.depth_factor = -1000;
   EXPECT_EQ(refusal_of(camera(), settings),
-            "stillpoint: settings: depth_factor is -1000.000000, expected units per metre: 1000 for millimetres, 5000 "
-            "for TUM's files, 0 without 16-bit depth");
+            "stillpoint: settings: depth_factor is -1000.000000, expected 0.001 to 1000000 units per metre: 1000 for "
+            "millimetres, 5000 for TUM's files; 0 without 16-bit depth");
   for (const double no_unit : {std::nan(""), 1e-300, 1e9}) {
     settings.depth_factor = no_unit;
     EXPECT_NE(refusal_of(camera(), settings), "accepted") << no_unit;

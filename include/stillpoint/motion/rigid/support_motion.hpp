@@ -50,7 +50,7 @@ class SupportMotion {
   StationaryCamera stationary_camera;  ///< when has the camera no motion at all?
   Inertia inertia;                     ///< what its velocity knows
 
-  // No options in files.
+  // No option in files.
   double past_preference = 0.35;  ///< the past's hypothesis is kept while it has this share of the best one's support
   bool measures_noise = true;     ///< of pixels and depths in each frame; false: it is as assumed
 
