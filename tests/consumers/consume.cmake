@@ -30,6 +30,7 @@ if(COMPONENT STREQUAL "onnxruntime")
 endif()
 if(STANDARD)
   list(APPEND arguments "-DCMAKE_CXX_STANDARD=${STANDARD}" -DCMAKE_CXX_STANDARD_REQUIRED=ON -DCMAKE_CXX_EXTENSIONS=OFF)
+  unset(ENV{CXXFLAGS})  # those of the library's compiler
 endif()
 unset(ENV{CMAKE_BUILD_TYPE})
 
