@@ -16,6 +16,7 @@
 #include "stillpoint/policies.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
+#include "unit/pipeline/scene_run.hpp"
 
 namespace stillpoint::wrong_use_test {
 namespace {
@@ -34,14 +35,18 @@ struct Said {
   std::string hint;
 };
 
+std::vector<Vector2f> keypoints_of(const cv::Mat& gray) {
+  std::vector<cv::KeyPoint> found;
+  cv::ORB::create(300)->detect(gray, found);
+  std::vector<Vector2f> keypoints;
+  for (const cv::KeyPoint& keypoint : found) keypoints.emplace_back(keypoint.pt.x, keypoint.pt.y);
+  return keypoints;
+}
+
 /// @param hand  hands over what it likes of a correct frame, and says what the filter answered
 /// @return      after the last of 26 frames
 Said after_a_second(const std::function<const FrameResult&(FrameFilter<>&, Handed)>& hand) {
-  synthetic::SceneOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.frames = 26;
-  const synthetic::Scene scene = synthetic::static_room(options);
+  const synthetic::Scene scene = synthetic::static_room(scene_run::small(26));
   SyntheticSequence sequence(scene);
   SyntheticFrame frame;
   FrameFilter<> filter(scene.camera);
@@ -52,9 +57,7 @@ Said after_a_second(const std::function<const FrameResult&(FrameFilter<>&, Hande
     handed.gray = as_mat(frame.gray.view()).clone();
     as_mat(frame.depth.view()).convertTo(handed.depth, CV_16U, 1000.0 / frame.depth_factor);
     handed.time_s = frame.timestamp_s;
-    std::vector<cv::KeyPoint> found;
-    cv::ORB::create(300)->detect(handed.gray, found);
-    for (const cv::KeyPoint& keypoint : found) handed.keypoints.emplace_back(keypoint.pt.x, keypoint.pt.y);
+    handed.keypoints = keypoints_of(handed.gray);
     const FrameResult& result = hand(filter, handed);
     said = {result.status(), result.warnings(), result.hint()};
   }
@@ -219,22 +222,14 @@ TEST(WrongUse, AScaleThatIsNotTheHosts) {
 
 // Doubt outlives a reset: two filters see the same frames, and only one of them has a hint.
 TEST(WrongUse, AHintChangesNoVerdict) {
-  synthetic::SceneOptions options;
-  options.width = 320;
-  options.height = 240;
-  options.frames = 36;
-  const synthetic::Scene scene = synthetic::walking_people(options);
+  const synthetic::Scene scene = synthetic::walking_people(scene_run::small(36));
   SyntheticSequence sequence(scene);
   SyntheticFrame frame;
   FrameFilter<> doubting(scene.camera), fresh(scene.camera);
   std::size_t hints = 0, dropped = 0;
   const auto render = [&](int f) {
     sequence.render(f, frame);
-    std::vector<cv::KeyPoint> found;
-    cv::ORB::create(300)->detect(as_mat(frame.gray.view()), found);
-    std::vector<Vector2f> keypoints;
-    for (const cv::KeyPoint& keypoint : found) keypoints.emplace_back(keypoint.pt.x, keypoint.pt.y);
-    return keypoints;
+    return keypoints_of(as_mat(frame.gray.view()));
   };
   for (int f = 0; f < sequence.size(); ++f) {
     std::vector<Vector2f> in_one_quarter = render(f);
