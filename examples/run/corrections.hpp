@@ -31,7 +31,7 @@ inline constexpr std::array<Correction, 15> kCorrections = {{
     {"calibrated", "the level is the mean score of the static features, Eq. 10"},
     {"measured-noise", "matches support a motion within 0.1 px, not within the noise"},
     {"own-noise", "pixel and depth noise as assumed, not as found in the frame; the gate does not learn"},
-    {"standing-camera", "a stationary camera is estimated like any other"},
+    {"stationary-camera", "a stationary camera is estimated like any other"},
     {"clusters", "a tenth as many clusters as features, undivided, that decide alone"},
     {"all-features", "only features in boxes of moving classes are tested"},
     {"older-frames", "features are looked for in the last frame alone"},
@@ -93,7 +93,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
     motion.measures_noise = false;
     filter.gate.gain = 0.0;
   }
-  if (without("standing-camera")) motion.stationary_camera.is_enabled = false;
+  if (without("stationary-camera")) motion.stationary_camera.is_enabled = false;
   if (without("past-hypothesis")) motion.past_preference = std::numeric_limits<double>::infinity();
   if (without("inertia")) motion.inertia.acceleration_m_s2 = 0.0;
   if (without("clusters")) {

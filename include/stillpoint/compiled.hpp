@@ -25,6 +25,7 @@
 namespace stillpoint {
 
 struct GuardedDepth;
+class DepthDelay;
 class PropagatedPrior;
 struct PatchMatcher;
 class SupportMotion;
@@ -53,6 +54,7 @@ struct CompiledFilter {
     FrameCheck& frame_check;
     AnyDepthNoise& depth_noise;
     GuardedDepth& depth_lookup;
+    DepthDelay& depth_delay;
     PropagatedPrior& prior;
     PatchMatcher& matcher;
     SupportMotion& ego_motion;
@@ -110,6 +112,7 @@ class FrameFilter<CompiledPolicies> {
   FrameCheck& frame_check;          ///< which frames can be judged at all?
   AnyDepthNoise& depth_noise;       ///< how wrong is a depth?
   GuardedDepth& depth_lookup;       ///< which depth belongs to a pixel?
+  DepthDelay& depth_delay;          ///< is the depth of the image's moment?
   PropagatedPrior& prior;           ///< where may something move?
   PatchMatcher& matcher;            ///< where was each feature before?
   SupportMotion& ego_motion;        ///< how did the camera move?
@@ -143,6 +146,7 @@ class FrameFilter<CompiledPolicies> {
         frame_check(stages.frame_check),
         depth_noise(stages.depth_noise),
         depth_lookup(stages.depth_lookup),
+        depth_delay(stages.depth_delay),
         prior(stages.prior),
         matcher(stages.matcher),
         ego_motion(stages.ego_motion),

@@ -16,6 +16,7 @@
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/no_depth_delay.hpp"
 #include "stillpoint/fwd.hpp"
 #include "stillpoint/movers/no_movers.hpp"
 #include "stillpoint/pipeline/frame_check.hpp"
@@ -49,6 +50,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   FrameCheck frame_check;                       ///< which frames can be judged at all?
   DepthNoise depth_noise;                       ///< how wrong is a depth?
   typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
+  DepthDelayOf<Policies> depth_delay;           ///< is the depth of the image's moment?
   Prior prior;                                  ///< where may something move?
   Matcher matcher;                              ///< where was each feature before?
   EgoMotion ego_motion;                         ///< how did the camera move?
@@ -131,6 +133,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
   void reset() {
     history_.clear();
+    depth_delay.reset();
     reset_policy(prior);
     matcher.reset();
     reset_policy(gate);
@@ -141,8 +144,9 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
  private:
-  Status judge(const FrameView& frame) {
-    const FrameView reference = history_.back(1).view();
+  /// @param frame  its depth is that of the image's moment afterwards
+  Status judge(FrameView& frame) {
+    const FrameView as_it_came = frame, reference = history_.back(1).view();
     Motion& motion = result_.motion_;
     Timings& timings = result_.timings_;
     workspace_.rewind();
@@ -159,6 +163,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::prior, [&] { prior.regions(frame, regions); });
     timings.run(Stage::match, [&] {
       rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
+      frame.depth = depth_delay.undo(frame, rough_motion, camera);
       matcher.match(reference, frame, matches);
       lift(frame, depth_lookup, camera, depth_noise, matches.current);
       lift(reference, depth_lookup, camera, depth_noise, matches.reference);
@@ -190,7 +195,10 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::classify, [&] { classifier.classify(observations_, evidence, labels, workspace_); });
     timings.run(Stage::gate, [&] { learn(gate, observations_, labels); });
     timings.run(Stage::memory, [&] { memory.update(observations_, motion, evidence, labels, workspace_); });
-    timings.run(Stage::match, [&] { learn(matcher, observations_, labels); });
+    timings.run(Stage::match, [&] {
+      learn(matcher, observations_, labels);
+      depth_delay.observe(as_it_came, matches.current, labels, motion, camera);
+    });
     if constexpr (kHasMovers<Policies>)  // without, not even a look at the clock
       timings.run(Stage::movers,
                   [&] { movers.track(frame, observations_, motion, camera, labels, result_.movers_, workspace_); });
@@ -201,6 +209,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       result_.finish(labels, scores, matches.current.depth_m);
     });
     result_.warnings_ = motion.warnings;
+    if (depth_delay.frames() != 0.0) result_.warnings_.add(Warning::depth_unsynchronised);
     if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
     return motion.status;
   }
@@ -221,6 +230,7 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("frame_check", filter.frame_check);
   visit("depth_noise", filter.depth_noise);
   visit("depth_lookup", filter.depth_lookup);
+  visit("depth_delay", filter.depth_delay);
   visit("prior", filter.prior);
   visit("matcher", filter.matcher);
   visit("ego_motion", filter.ego_motion);

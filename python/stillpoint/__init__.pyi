@@ -50,6 +50,7 @@ class FrameWarning(enum.IntEnum):
     keypoints_outside = 8
     times_far_apart = 9
     nothing_fits = 10
+    depth_unsynchronised = 11
 
 class Verdict(enum.IntEnum):
     """What a feature is, as far as can be told."""

@@ -15,31 +15,36 @@ for folder in include tests examples bench cmake shim python ros .ci; do
   [[ ! -d $folder ]] || folders+=("$folder")
 done
 
-offences=$(
-  while IFS= read -r file; do
-    head -n 3 "$file" | grep -q 'SPDX-License-Identifier: MIT' || echo "$file:1: no line 'SPDX-License-Identifier: MIT'"
-    case $file in
-      examples/[0-9]*.cpp)
-        name=$(basename "$file" .cpp) lines=$(wc -l < "$file")
-        ((lines <= ${longest_example[$name]:-0})) ||
-          echo "$file:$lines: more than ${longest_example[$name]:-0} lines: an example shows one idea" ;;
-      include/*)
-      lines=$(wc -l < "$file")
-      ((lines <= longest)) || echo "$file:$lines: more than $longest lines: split it by idea"
-      # Distributions of <random> differ between standard libraries, and global generators between runs.
-      grep -nE '#include <random>|std::random_device|\b(rand|srand|theRNG)\(' "$file" |
-        sed "s|^\([0-9]*\):.*|$file:\1: random numbers come from core/random.hpp only|" || true
-      grep -nE 'std::(cout|cerr|clog)|\bf?printf\(' "$file" |
-        sed "s|^\([0-9]*\):.*|$file:\1: a guest prints nothing|" || true
-      # OpenCV 4.11 took the operators away from its vector types.
-      grep -nE 'opencv2/core/hal/|CV_SIMD|\bv_u?(int|float)(8|16|32|64)(x[0-9]+)?\b' "$file" |
-        sed "s|^\([0-9]*\):.*|$file:\1: no universal intrinsics of OpenCV: loops that compilers vectorise, or Eigen|" || true ;;
-    esac
-  done < <(find "${folders[@]}" -type f \
-    \( -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt \) |
-    LC_ALL=C sort)
+mapfile -t files < <(find "${folders[@]}" -type f \
+  \( -name '*.hpp' -o -name '*.cpp' -o -name '*.sh' -o -name '*.py' -o -name '*.cmake' -o -name CMakeLists.txt \) |
+  LC_ALL=C sort)
+mapfile -t headers < <(printf '%s\n' "${files[@]}" | grep '^include/')
+mapfile -t programs < <(printf '%s\n' "${files[@]}" | grep -E '^examples/[0-9][^/]*\.cpp$')
+
+# no_header_has PATTERN WHY: one process for all headers; nothing to report is no error.
+no_header_has() {
+  grep -nHE "$1" "${headers[@]}" < /dev/null | sed -E "s@^([^:]*:[0-9]+):.*@\1: $2@" || true
+}
+
+offences=$({
+  awk 'FNR <= 3 && /SPDX-License-Identifier: MIT/ { marked[FILENAME] = 1 }
+    END { for (i = 1; i < ARGC; ++i) if (!(ARGV[i] in marked)) print ARGV[i] ":1: no line \x27SPDX-License-Identifier: MIT\x27" }' \
+    "${files[@]}"
+  for file in "${programs[@]}"; do
+    name=$(basename "$file" .cpp) lines=$(wc -l < "$file")
+    ((lines <= ${longest_example[$name]:-0})) ||
+      echo "$file:$lines: more than ${longest_example[$name]:-0} lines: an example shows one idea"
+  done
+  ((${#headers[@]} == 0)) || wc -l "${headers[@]}" | awk -v longest="$longest" '$2 != "total" && $1 > longest {
+    print $2 ":" $1 ": more than " longest " lines: split it by idea" }'
+  # Distributions of <random> differ between standard libraries, and global generators between runs.
+  no_header_has '#include <random>|std::random_device|\b(rand|srand|theRNG)\(' 'random numbers come from core/random.hpp only'
+  no_header_has 'std::(cout|cerr|clog)|\bf?printf\(' 'a guest prints nothing'
+  # OpenCV 4.11 took the operators away from its vector types.
+  no_header_has 'opencv2/core/hal/|CV_SIMD|\bv_u?(int|float)(8|16|32|64)(x[0-9]+)?\b' \
+    'no universal intrinsics of OpenCV: loops that compilers vectorise, or Eigen'
   # Whichever header a host includes: the first of ours to be read to its end is one that includes no other.
   find include -mindepth 3 -name '*.hpp' ! -name needs_cpp17.hpp -exec grep -L '^#include "stillpoint/' {} + |
-    LC_ALL=C sort | sed 's|$|:1: in C++14 not one error: include core/needs_cpp17.hpp|'
-)
+    sed 's|$|:1: in C++14 not one error: include core/needs_cpp17.hpp|'
+} | LC_ALL=C sort -t : -k 1,1 -k 2,2n)
 [[ -z $offences ]] || { printf '%s\n' "$offences"; exit 1; }

@@ -27,6 +27,7 @@ bash "$rules" "$PWD" > found && { echo 'the rules were broken and nothing was sa
 diff - <(cut -d: -f1,2 found) << 'EXPECTED' || { echo 'expected (<) is not what was found (>)'; exit 1; }
 examples/01_minimal.cpp:41
 examples/99_unknown.cpp:1
+include/stillpoint/core/leaf.hpp:1
 include/stillpoint/gambler.hpp:2
 include/stillpoint/gambler.hpp:3
 include/stillpoint/long.hpp:301
@@ -36,6 +37,5 @@ include/stillpoint/vectors.hpp:2
 include/stillpoint/vectors.hpp:3
 include/stillpoint/vectors.hpp:4
 tests/nobodys.sh:1
-include/stillpoint/core/leaf.hpp:1
 EXPECTED
 echo 'all offences were found'

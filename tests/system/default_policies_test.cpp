@@ -71,7 +71,7 @@ TEST_F(DefaultPolicies, EachCorrectionCanBeSwitchedOffAndMatters) {
     const fs::path with = more.empty() ? defaults() : run("with_" + name, more);
     const fs::path out = run(name, "--without " + name + more);
     // In the demo nobody hijacks the motion, and the camera is in a hand: these have nothing to do.
-    if (name == "past-hypothesis" || name == "standing-camera") continue;
+    if (name == "past-hypothesis" || name == "stationary-camera") continue;
     EXPECT_TRUE(features(with) != features(out)) << name << " changes nothing";
   }
 }

@@ -25,8 +25,9 @@ enum class Warning : std::uint8_t {
   keypoints_outside,         ///< half of them are outside of the image
   times_far_apart,           ///< each frame comes too late for the last one
   nothing_fits,              ///< hardly a frame can be judged
+  depth_unsynchronised,      ///< the depth images are older or newer than their images, and were moved
 };
-constexpr std::size_t kWarningCount = 11;
+constexpr std::size_t kWarningCount = 12;
 
 /// The warning as it is written in files.
 constexpr const char* to_string(Warning warning) noexcept {
@@ -42,6 +43,7 @@ constexpr const char* to_string(Warning warning) noexcept {
     case Warning::keypoints_outside: return "keypoints_outside";
     case Warning::times_far_apart: return "times_far_apart";
     case Warning::nothing_fits: return "nothing_fits";
+    case Warning::depth_unsynchronised: return "depth_unsynchronised";
   }
   return "?";
 }

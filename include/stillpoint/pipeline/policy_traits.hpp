@@ -41,6 +41,15 @@ template <class P, class = void> struct is_depth_lookup : std::false_type {};
 template <class P> struct is_depth_lookup<P, std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().at(
     std::declval<const DepthView&>(), std::declval<const Vector2f&>()))>>> : std::true_type {};
 
+template <class P, class Camera, class = void> struct is_depth_delay : std::false_type {};
+template <class P, class Camera> struct is_depth_delay<P, Camera, std::void_t<
+    std::enable_if_t<detail::returns<DepthView, decltype(std::declval<P&>().undo(std::declval<const FrameView&>(),
+    std::declval<const Pose&>(), std::declval<const Camera&>()))>>,
+    decltype(std::declval<P&>().observe(std::declval<const FrameView&>(), std::declval<const FrameFeatures&>(),
+    std::declval<span<const Label>>(), std::declval<const Motion&>(), std::declval<const Camera&>())),
+    std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().frames())>>,
+    decltype(std::declval<P&>().reset())>> : std::true_type {};
+
 template <class P, class Camera, class = void> struct is_ego_motion : std::false_type {};
 template <class P, class Camera> struct is_ego_motion<P, Camera, std::enable_if_t<detail::returns<Motion,
     decltype(std::declval<P&>().estimate(std::declval<const Observations&>(), std::declval<const Camera&>(),
@@ -100,9 +109,19 @@ template <class Policies> struct has_history_length<Policies, std::enable_if_t<
 
 // clang-format on
 
-struct NoMovers;  // movers/no_movers.hpp
+struct NoMovers;      // movers/no_movers.hpp
+struct NoDepthDelay;  // depth/no_depth_delay.hpp
 
 namespace detail {
+
+template <class Policies, class = void>
+struct NamedDepthDelay {
+  using type = NoDepthDelay;
+};
+template <class Policies>
+struct NamedDepthDelay<Policies, std::void_t<typename Policies::DepthDelay>> {
+  using type = typename Policies::DepthDelay;
+};
 
 template <class Policies, class = void>
 struct NamedMovers {
@@ -114,6 +133,10 @@ struct NamedMovers<Policies, std::void_t<typename Policies::Movers>> {
 };
 
 }  // namespace detail
+
+/// The stage that a set has for depth of another moment: `NoDepthDelay` where it names none.
+template <class Policies>
+using DepthDelayOf = typename detail::NamedDepthDelay<Policies>::type;
 
 /// The stage that a set has for movers: `NoMovers` where it names none.
 template <class Policies>
@@ -143,6 +166,11 @@ struct PolicyContract {
   static_assert(is_depth_lookup<typename Policies::DepthLookup>::value,
                 "stillpoint: Policies::DepthLookup must offer double at(const DepthView&, const Vector2f& depth_pixel) "
                 "const; see depth/depth_lookup.hpp");
+  static_assert(
+      is_depth_delay<DepthDelayOf<Policies>, Camera>::value,
+      "stillpoint: Policies::DepthDelay must offer DepthView undo(const FrameView&, const Pose&, const "
+      "Camera&), void observe(const FrameView&, const FrameFeatures&, span<const Label>, const Motion&, const "
+      "Camera&), double frames() const and void reset(); see depth/no_depth_delay.hpp");
   static_assert(
       is_prior<typename Policies::Prior>::value,
       "stillpoint: Policies::Prior must offer void regions(const FrameView&, Regions&); see prior/box_prior.hpp");

@@ -8,6 +8,7 @@
 
 #include "stillpoint/cluster/surface_clusters.hpp"
 #include "stillpoint/core/camera.hpp"
+#include "stillpoint/depth/depth_delay.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
@@ -27,6 +28,7 @@ struct DefaultPolicies {
   using Camera = stillpoint::Camera;
   using DepthNoise = AnyDepthNoise;
   using DepthLookup = GuardedDepth;
+  using DepthDelay = stillpoint::DepthDelay;
   using Prior = PropagatedPrior;
   using Matcher = PatchMatcher;
   using EgoMotion = SupportMotion;

@@ -77,6 +77,18 @@ struct RecordingDepthLookup : GuardedDepth, mock::Stage {
   }
 };
 
+struct RecordingDepthDelay : DepthDelay, mock::Stage {
+  template <class... A>
+  auto undo(A&&... a) -> decltype(std::declval<DepthDelay&>().undo(std::forward<A>(a)...)) {
+    return note("depth_delay.undo"), DepthDelay::undo(std::forward<A>(a)...);
+  }
+  template <class... A>
+  auto observe(A&&... a) -> decltype(std::declval<DepthDelay&>().observe(std::forward<A>(a)...)) {
+    return note("depth_delay.observe"), DepthDelay::observe(std::forward<A>(a)...);
+  }
+  void reset() { note("depth_delay.reset"), DepthDelay::reset(); }
+};
+
 struct RecordingEgoMotion : SupportMotion, mock::Stage {
   template <class... A>
   auto estimate(A&&... a) -> decltype(std::declval<SupportMotion&>().estimate(std::forward<A>(a)...)) {
@@ -146,6 +158,7 @@ struct RecordingPolicies : DefaultPolicies {
   using Prior = RecordingPrior;
   using Matcher = RecordingMatcher;
   using DepthLookup = RecordingDepthLookup;
+  using DepthDelay = RecordingDepthDelay;
   using EgoMotion = RecordingEgoMotion;
   using Scorer = RecordingScorer;
   using Gate = RecordingGate;
@@ -158,6 +171,7 @@ template <class Recording, class Real>
 constexpr bool records = std::is_base_of_v<Real, Recording>;
 static_assert(records<RecordingPrior, DefaultPolicies::Prior> && records<RecordingMatcher, DefaultPolicies::Matcher> &&
                   records<RecordingDepthLookup, DefaultPolicies::DepthLookup> &&
+                  records<RecordingDepthDelay, DefaultPolicies::DepthDelay> &&
                   records<RecordingEgoMotion, DefaultPolicies::EgoMotion> &&
                   records<RecordingScorer, DefaultPolicies::Scorer> && records<RecordingGate, DefaultPolicies::Gate> &&
                   records<RecordingClassifier, DefaultPolicies::Classifier> &&
@@ -188,7 +202,7 @@ class CallOrder : public testing::Test {
   CallOrder() {
     filter_.prior.log = filter_.matcher.log = filter_.depth_lookup.log = filter_.ego_motion.log = &log_;
     filter_.scorer.log = filter_.gate.log = filter_.classifier.log = filter_.memory.log = filter_.keep_floor.log =
-        filter_.movers.log = &log_;
+        filter_.movers.log = filter_.depth_delay.log = &log_;
   }
 
   const FrameResult& run(std::size_t f) {

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "compile_fail/sound_policies.hpp"
+#include "stillpoint/depth/depth_delay.hpp"
+#include "stillpoint/depth/no_depth_delay.hpp"
 
 namespace stillpoint {
 namespace {
@@ -64,6 +66,14 @@ struct ChangingNoise {
 struct ChangingLookup {
   double at(const DepthView&, const Vector2f&);
 };
+struct WithoutReset : NoDepthDelay {
+ private:
+  void reset();
+};
+struct WithoutUndo : NoDepthDelay {
+ private:
+  void undo();
+};
 struct WithoutMemory : SoundPolicies {
  private:
   using Memory = NoMemory;
@@ -79,6 +89,8 @@ TEST(PolicyTraits, SoundStagesAreTaken) {
   EXPECT_TRUE(is_camera<Camera>::value);
   EXPECT_TRUE(is_depth_noise<SoundPolicies::DepthNoise>::value);
   EXPECT_TRUE(is_depth_lookup<SoundPolicies::DepthLookup>::value);
+  EXPECT_TRUE((is_depth_delay<NoDepthDelay, Camera>::value));
+  EXPECT_TRUE((is_depth_delay<DepthDelay, Camera>::value));
   EXPECT_TRUE(is_prior<SoundPolicies::Prior>::value);
   EXPECT_TRUE(is_matcher<SoundPolicies::Matcher>::value);
   EXPECT_TRUE((is_ego_motion<SoundPolicies::EgoMotion, Camera>::value));
@@ -95,6 +107,8 @@ TEST(PolicyTraits, ATypeWithoutTheMemberIsNoStage) {
   EXPECT_FALSE(is_camera<Nothing>::value);
   EXPECT_FALSE(is_depth_noise<Nothing>::value);
   EXPECT_FALSE(is_depth_lookup<Nothing>::value);
+  EXPECT_FALSE((is_depth_delay<Nothing, Camera>::value));
+  EXPECT_FALSE((is_depth_delay<WithoutUndo, Camera>::value));
   EXPECT_FALSE(is_prior<Nothing>::value);
   EXPECT_FALSE(is_matcher<Nothing>::value);
   EXPECT_FALSE((is_ego_motion<Nothing, Camera>::value));
@@ -121,6 +135,7 @@ TEST(PolicyTraits, WhoRemembersFramesMustForgetThem) {
   EXPECT_FALSE(is_matcher<NoMatcherReset>::value);
   EXPECT_FALSE(is_memory<NoUpdate>::value);
   EXPECT_FALSE(is_memory<NoMemoryReset>::value);
+  EXPECT_FALSE((is_depth_delay<WithoutReset, Camera>::value));
 }
 
 TEST(PolicyTraits, AnswersHaveTheirTypeAndModelsAreConst) {

@@ -35,6 +35,7 @@ namespace {
 
 // clang-format off
 template <class Set, class T> struct WithDepthNoise : Set { using DepthNoise = T; };
+template <class Set, class T> struct WithDepthDelay : Set { using DepthDelay = T; };
 template <class Set, class T> struct WithDepthLookup : Set { using DepthLookup = T; };
 template <class Set, class T> struct WithPrior : Set { using Prior = T; };
 template <class Set, class T> struct WithMatcher : Set { using Matcher = T; };
@@ -169,6 +170,9 @@ TEST(StageFit, EachReplacementInDefaultPoliciesFindsWhoWalksOrIsRefused) {
       "NoDepth, LucasKanade, CornerTracker, MonocularMotion, OffsetScore, SampsonScore, MeanGate, RegionClusters, "
       "NoMemory")
       << "SampsonScore needs the host's matches";
+  std::string refused;
+  expect_finds_or_refused<WithDepthDelay<DefaultPolicies, NoDepthDelay>>("NoDepthDelay", {0.75, 0.06}, refused);
+  EXPECT_EQ(refused, "");
 }
 
 // What moves along its epipolar line is not found by what is left.

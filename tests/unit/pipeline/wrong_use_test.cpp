@@ -44,9 +44,8 @@ std::vector<Vector2f> keypoints_of(const cv::Mat& gray) {
 }
 
 /// @param hand  hands over what it likes of a correct frame, and says what the filter answered
-/// @return      after the last of 26 frames
-Said after_a_second(const std::function<const FrameResult&(FrameFilter<>&, Handed)>& hand) {
-  const synthetic::Scene scene = synthetic::static_room(scene_run::small(26));
+/// @return      after the last frame
+Said after(const synthetic::Scene& scene, const std::function<const FrameResult&(FrameFilter<>&, Handed)>& hand) {
   SyntheticSequence sequence(scene);
   SyntheticFrame frame;
   FrameFilter<> filter(scene.camera);
@@ -64,6 +63,10 @@ Said after_a_second(const std::function<const FrameResult&(FrameFilter<>&, Hande
   return said;
 }
 
+Said after_a_second(const std::function<const FrameResult&(FrameFilter<>&, Handed)>& hand) {
+  return after(synthetic::static_room(scene_run::small(26)), hand);
+}
+
 void expect_hint(const Said& said, const char* word) {
   EXPECT_NE(said.hint.find(word), std::string::npos) << "hint: " << said.hint;
 }
@@ -75,6 +78,21 @@ TEST(WrongUse, RightUseHasNoHint) {
   EXPECT_EQ(said.status, Status::ok);
   EXPECT_TRUE(said.warnings.empty());
   EXPECT_EQ(said.hint, "");
+}
+
+// The camera turns fast enough for it to be seen: by some four pixels a frame.
+TEST(WrongUse, DepthOfTheFrameBefore) {
+  cv::Mat before;
+  const Said said =
+      after(synthetic::pure_rotation(scene_run::small(120), true),
+            [&before](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+              const cv::Mat late = before.empty() ? frame.depth : before;
+              before = frame.depth;
+              return filter.filter_frame({frame.gray, DepthView::millimetres(late), frame.time_s}, frame.keypoints);
+            });
+  EXPECT_EQ(said.status, Status::ok);
+  EXPECT_TRUE(said.warnings.has(Warning::depth_unsynchronised));
+  expect_hint(said, "pair them by time");
 }
 
 TEST(WrongUse, SixteenBitDepthWithoutItsUnit) {

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Depth is taken as it comes.
+
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/score.hpp"
+#include "stillpoint/core/span.hpp"
+
+namespace stillpoint {
+
+/// The null stage: each depth image is of the moment of its image.
+struct NoDepthDelay {
+  template <class Camera>
+  DepthView undo(const FrameView& frame, const Pose&, const Camera&) const noexcept {
+    return frame.depth;
+  }
+  template <class Camera>
+  void observe(const FrameView&, const FrameFeatures&, span<const Label>, const Motion&, const Camera&) const noexcept {
+  }
+  double frames() const noexcept { return 0.0; }
+  void reset() const noexcept {}
+};
+
+}  // namespace stillpoint

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#include "stillpoint/depth/depth_delay.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/image.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/motion.hpp"
+#include "stillpoint/core/random.hpp"
+#include "stillpoint/core/score.hpp"
+
+namespace stillpoint::depth_delay_test {
+namespace {
+
+constexpr int kWidth = 320, kHeight = 240;
+constexpr double kFocal_px = 260.0;
+
+Camera camera() { return Camera(kFocal_px, kFocal_px, 159.5, 119.5, kWidth, kHeight); }
+
+/// Bright posts 1 m before the camera and a dark wall behind them; the camera moves sideways, so that all edges go by
+/// as many pixels.
+class DepthDelayTest : public testing::Test {
+ protected:
+  DepthDelayTest() {
+    for (double& left_px : left_px_) left_px = random_.uniform(20.0, kWidth - 40.0);
+  }
+
+  bool is_post(int u, double offset_px) const {
+    for (const double left_px : left_px_)
+      if (u >= left_px + offset_px && u < left_px + 12.0 + offset_px) return true;
+    return false;
+  }
+
+  /// Where the posts are at a time, which is counted in frames.
+  static double swings(double time) { return 14.0 * std::sin(0.35 * time) + 5.0 * std::sin(0.8 * time); }
+
+  /// Shows frames to `delay_`.
+  /// @param late   the depth image is of so many frames before
+  /// @param off_px  and lies so far to the right
+  void observe(int frames, double late, double off_px = 0.0, const std::function<double(double)>& offset_px = swings) {
+    for (int i = 0; i < frames; ++i, ++frame_) {
+      gray_.resize(kWidth, kHeight, PixelFormat::gray8);
+      depth_.resize(kWidth, kHeight, PixelFormat::depth32f);
+      const double now_px = offset_px(frame_), then_px = offset_px(frame_ - late) + off_px;
+      for (int v = 0; v < kHeight; ++v)
+        for (int u = 0; u < kWidth; ++u) {
+          gray_.row<std::uint8_t>(v)[u] = static_cast<std::uint8_t>(is_post(u, now_px) ? 200 : 50);
+          depth_.row<float>(v)[u] = is_post(u, then_px) ? 1.0f : 3.0f;
+        }
+      Motion motion;
+      motion.status = Status::ok;
+      motion.metric = true;
+      motion.current_from_reference =
+          make_pose(Matrix3d::Identity(), {(now_px - offset_px(frame_ - 1)) / kFocal_px, 0.0, 0.0});
+      delay_.observe(view(), features_, labels_, motion, camera());
+    }
+  }
+
+  FrameView view() const { return FrameView(gray_.view(), DepthView(depth_.view()), 0.0); }
+
+  Random random_{3};
+  std::array<double, 6> left_px_{};
+  ImageBuffer gray_, depth_;
+  int frame_ = 0;
+  FrameFeatures features_;
+  std::vector<Label> labels_;
+  DepthDelay delay_;
+};
+
+TEST_F(DepthDelayTest, DepthOfItsImagesMomentHasNone) {
+  observe(100, 0.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
+TEST_F(DepthDelayTest, DepthOfTheFrameBeforeIsOneFrameLate) {
+  observe(1, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0) << "one look is too few";
+  observe(79, 1.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+TEST_F(DepthDelayTest, OfHalfAFrameToo) {
+  observe(80, 0.5);
+  EXPECT_EQ(delay_.frames(), 0.5);
+}
+
+// By the velocity before, which is not that after.
+TEST_F(DepthDelayTest, DepthOfTheFrameAfterIsEarly) {
+  observe(80, -1.0);
+  EXPECT_NEAR(delay_.frames(), -1.0, 0.25);
+}
+
+TEST_F(DepthDelayTest, AConstantShiftIsNoDelay) {
+  observe(80, 0.0, 5.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
+TEST_F(DepthDelayTest, NorDoesItHideOne) {
+  observe(80, 1.0, 5.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+// Each delay looks like a shift then.
+TEST_F(DepthDelayTest, WhereTheCameraMovesEvenlyNobodyKnows) {
+  observe(60, 1.0, 0.0, [](double time) { return 3.0 * time - 60.0; });
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
+TEST_F(DepthDelayTest, WhereItStandsNobodyKnows) {
+  observe(80, 1.0, 0.0, [](double) { return 0.0; });
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
+TEST_F(DepthDelayTest, WhatIsFoundHoldsWhileTheCameraStands) {
+  observe(80, 1.0);
+  observe(400, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+TEST_F(DepthDelayTest, WhatIsMendedIsForgotten) {
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+  observe(400, 0.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
+TEST_F(DepthDelayTest, AResetForgetsIt) {
+  observe(80, 1.0);
+  delay_.reset();
+  EXPECT_EQ(delay_.frames(), 0.0);
+  observe(1, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0) << "one look is too few, as in the beginning";
+}
+
+// The posts go by as if the camera moved, but are dynamic: nothing is left that would tell.
+TEST_F(DepthDelayTest, WhatMovesByItselfTellsNothing) {
+  for (int v = 4; v < kHeight; v += 8)
+    for (int u = 4; u < kWidth; u += 8) features_.pixel.emplace_back(static_cast<float>(u), static_cast<float>(v));
+  features_.depth_m.assign(features_.pixel.size(), 1.0);
+  labels_.resize(features_.pixel.size());
+  for (Label& label : labels_) label.keep = false;
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+  features_.depth_m.assign(features_.pixel.size(), 2.0);  // of something behind the posts
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+TEST_F(DepthDelayTest, SwitchedOffItLooksAtNothing) {
+  delay_.is_enabled = false;
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
+// A post's left edge at 100 in the late depth; the camera's motion takes it 10 px to the right within a frame.
+TEST_F(DepthDelayTest, UndoneTheDepthLiesOnItsImage) {
+  observe(80, 1.0);
+  left_px_.fill(100.0);
+  observe(1, 0.0, 0.0, [](double) { return 0.0; });
+  const Pose motion = make_pose(Matrix3d::Identity(), {10.0 / kFocal_px, 0.0, 0.0});
+  const DepthView undone = delay_.undo(view(), motion, camera());
+  EXPECT_NE(undone.metres(109, 120), 1.0f);
+  EXPECT_EQ(undone.metres(110, 120), 1.0f);
+  EXPECT_EQ(undone.metres(121, 120), 1.0f);
+  EXPECT_NE(undone.metres(122, 120), 1.0f);
+}
+
+TEST_F(DepthDelayTest, DepthThatIsNotLateIsHandedOnAsItIs) {
+  observe(40, 0.0);
+  const DepthView undone = delay_.undo(view(), make_pose(Matrix3d::Identity(), {0.1, 0.0, 0.0}), camera());
+  EXPECT_EQ(undone.image.data, depth_.view().data);
+}
+
+}  // namespace
+}  // namespace stillpoint::depth_delay_test
