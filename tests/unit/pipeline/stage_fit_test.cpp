@@ -17,6 +17,7 @@
 
 #include "backends/followed_corners.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/depth/no_depth_delay.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/match/corner_tracker.hpp"
 #include "stillpoint/opencv.hpp"
