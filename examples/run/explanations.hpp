@@ -49,8 +49,7 @@ constexpr const char* explained(stillpoint::Warning warning) noexcept {
     case Warning::keypoints_in_one_quarter: return "All keypoints are in one quarter of the image.";
     case Warning::keypoints_outside: return "Half of the keypoints are outside of the image.";
     case Warning::times_far_apart: return "Nearly every frame comes too late for the last one, or before it.";
-    case Warning::depth_unsynchronised:
-      return "The depth images are of other moments than their images: pair them by time.";
+    case Warning::depth_unsynchronised: return "Depth images are older or newer than their images: pair them by time.";
     case Warning::nothing_fits: return "Hardly a frame can be judged: are depth and image aligned?";
   }
   return "";

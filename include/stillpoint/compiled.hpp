@@ -112,7 +112,7 @@ class FrameFilter<CompiledPolicies> {
   FrameCheck& frame_check;          ///< which frames can be judged at all?
   AnyDepthNoise& depth_noise;       ///< how wrong is a depth?
   GuardedDepth& depth_lookup;       ///< which depth belongs to a pixel?
-  DepthDelay& depth_delay;          ///< is the depth of the image's moment?
+  DepthDelay& depth_delay;          ///< is the depth of the image's time?
   PropagatedPrior& prior;           ///< where may something move?
   PatchMatcher& matcher;            ///< where was each feature before?
   SupportMotion& ego_motion;        ///< how did the camera move?

@@ -50,7 +50,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   FrameCheck frame_check;                       ///< which frames can be judged at all?
   DepthNoise depth_noise;                       ///< how wrong is a depth?
   typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
-  DepthDelayOf<Policies> depth_delay;           ///< is the depth of the image's moment?
+  DepthDelayOf<Policies> depth_delay;           ///< is the depth of the image's time?
   Prior prior;                                  ///< where may something move?
   Matcher matcher;                              ///< where was each feature before?
   EgoMotion ego_motion;                         ///< how did the camera move?
@@ -86,6 +86,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     if (!judged(status)) result_.motion_.status = status;
     use_check_.observe(status, frame, pixels_, result_.depth_m_, result_.motion_);
     result_.warnings_.add(use_check_.warnings());
+    if (depth_delay.frames() != 0.0) result_.warnings_.add(Warning::depth_unsynchronised);
     result_.hint_ = UseCheck::hint(status, result_.warnings_);
     return result_;
   }
@@ -144,7 +145,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
  private:
-  /// @param frame  its depth is that of the image's moment afterwards
+  /// @param frame  its depth is that of the image's time afterwards, if the motion is known
   Status judge(FrameView& frame) {
     const FrameView as_it_came = frame, reference = history_.back(1).view();
     Motion& motion = result_.motion_;
@@ -179,7 +180,10 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     });
     timings.run(Stage::match, [&] { confirm(matcher, camera, motion); });
     timings.run(Stage::prior, [&] { observe(prior, observations_, motion, camera); });
-    if (!motion.usable()) return motion.status;
+    if (!motion.usable()) {
+      frame.depth = as_it_came.depth;
+      return motion.status;
+    }
     timings.run(Stage::match,
                 [&] { reproject_into_past(matcher, history_, frame, motion, camera, depth_noise, observations_); });
     timings.run(Stage::motion, [&] { refine(ego_motion, observations_, camera, expected, motion, workspace_); });
@@ -209,7 +213,6 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       result_.finish(labels, scores, matches.current.depth_m);
     });
     result_.warnings_ = motion.warnings;
-    if (depth_delay.frames() != 0.0) result_.warnings_.add(Warning::depth_unsynchronised);
     if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
     return motion.status;
   }

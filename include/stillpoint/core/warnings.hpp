@@ -12,7 +12,7 @@
 namespace stillpoint {
 
 /// No warning changes a verdict. The first three tell what the filter did, the others that it may be used wrongly: they
-/// come when many frames look so (`UseCheck`), and `FrameResult::hint` says what to look at.
+/// come when many frames look so (`UseCheck`, `DepthDelay`), and `FrameResult::hint` says what to look at.
 enum class Warning : std::uint8_t {
   rotation_only,             ///< the camera turned without moving (or stood still); motion has no direction
   consensus_inverted,        ///< another rigid motion explains more; the one that agrees with the past was taken
@@ -25,7 +25,7 @@ enum class Warning : std::uint8_t {
   keypoints_outside,         ///< half of them are outside of the image
   times_far_apart,           ///< each frame comes too late for the last one
   nothing_fits,              ///< hardly a frame can be judged
-  depth_unsynchronised,      ///< the depth images are older or newer than their images, and were moved
+  depth_unsynchronised,      ///< depth is older or newer than its image; the filter uses moved depth
 };
 constexpr std::size_t kWarningCount = 12;
 

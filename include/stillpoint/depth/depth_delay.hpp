@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Is the depth image of the image's moment?   If it is late, its edges lie where those of the image were.
+// Is the depth image as old as the image?   If it is older, its edges lie where those of the image were before.
 
 #include <algorithm>
 #include <array>
@@ -22,16 +22,16 @@
 
 namespace stillpoint {
 
-/// Measures how late depth is, in intervals between frames, and undoes it. Each delay moves the jumps of the depth
-/// image along with the camera's motion; at the right one they meet the steps of the gray image, wherever else the two
-/// images lie on each other: a constant shift between them is left free. Where the camera moves evenly a delay looks
-/// like a shift, and nothing is found. Jumps beside dynamic features are left out, as these move by themselves; undone,
-/// they are moved as if they stood. docs/design/sweeps.md, "Depth of another moment".
+/// Measures how late depth is, in intervals between frames, and undoes it. Each of nine delays moves the edges of the
+/// depth image along with the camera's motion; at the right delay they lie on edges of the gray image. A constant shift
+/// between the two images is left free, so that poor registration is no delay. At a constant velocity in the image a
+/// delay looks like a shift, and none is found. Edges beside dynamic features are left out, as these move by
+/// themselves; `undo` moves them as if they were static. docs/design/sweeps.md, "Depth of another time".
 class DepthDelay {
  public:
-  bool is_enabled = true;  ///< false: depth is taken as it comes; no option in files
+  bool is_enabled = true;  ///< false: depth is used as it comes; no option in files
 
-  /// The depth image at the image's moment: the frame's own, unless it is known to be of another one.
+  /// The depth image at the image's time: the frame's own, unless it is known to be of another time.
   /// @param current_from_reference  roughly, from the last frame to this one
   /// @return  valid until the next call
   template <class Camera>
@@ -40,7 +40,7 @@ class DepthDelay {
     return moved_(frame, scaled(current_from_reference, frames_), camera);
   }
 
-  /// Looks at every second frame.
+  /// Measures at every second frame.
   /// @param frame     as it came
   /// @param features  its features …
   /// @param labels    … and which of them are kept
@@ -56,8 +56,8 @@ class DepthDelay {
     decide();
   }
 
-  /// How many intervals between frames depth is older than its image; below 0, newer. 0: it is of the same moment, or
-  /// nobody knows.
+  /// By how many intervals between frames depth is older than its image; below 0, newer. 0: less than half an interval,
+  /// or not known.
   double frames() const noexcept { return frames_; }
 
   void reset() noexcept {
@@ -68,20 +68,21 @@ class DepthDelay {
   }
 
  private:
-  static constexpr std::size_t kLookEvery = 2;                           // frame
-  static constexpr int kRows = 30;                                       // of the depth image
-  static constexpr std::size_t kFewestJumps = 20;                        // in a frame
-  static constexpr int kReach_px = 2;                                    // of a gray step
-  static constexpr int kDelays = 9;                                      // from one frame too new to one too old …
-  static constexpr double kDelayStep = 0.25;                             // … of frames
-  static constexpr int kShifts_x = 9, kShifts_y = 5, kShiftStep_px = 2;  // 8 px and 4 px to each side
-  static constexpr float kFading = 0.98f;                                // of what was seen, with each look
-  static constexpr float kClearly = 0.15f;      // a delay is better than none by this share …
-  static constexpr float kDeviations = 3.5f;    // … and by this over the square root of the number of jumps …
-  static constexpr float kStill = 0.03f;        // … and what was found holds while it is better by this
-  static constexpr double kLeastDelay = 0.5;    // less is left as it is
-  static constexpr float kReachShare = 0.1f;    // of the width: so near to a dynamic feature …
-  static constexpr double kSameObject_m = 0.3;  // … and about as deep, a jump is that object's
+  static constexpr std::size_t kLookEvery = 2;        // frame
+  static constexpr int kRows = 30;                    // of the depth image
+  static constexpr std::size_t kFewestJumps = 20;     // in a frame
+  static constexpr std::size_t kMostJumps = 400;      // more are thinned out
+  static constexpr int kDelays = 9;                   // from one frame too new to one too old …
+  static constexpr double kDelayStep = 0.25;          // … of frames
+  static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
+  static constexpr float kFading = 0.98f;             // of what was seen, with each look
+  static constexpr float kClearly = 0.15f;            // a delay is better than none by this share …
+  static constexpr float kDeviations = 3.5f;          // … and by this over the square root of the number of jumps …
+  static constexpr float kStill = 0.03f;              // … and what was found holds while it is better by this
+  static constexpr double kLeastDelay = 0.5;          // less is left as it is …
+  static constexpr double kLeastHeld = 0.25;          // … unless more was found before
+  static constexpr float kReachShare = 0.1f;          // of the width: so near to a dynamic feature …
+  static constexpr double kSameObject_m = 0.3;        // … and about as deep, a jump is that object's
 
   struct DynamicFeature {
     Vector2f pixel;
@@ -94,6 +95,7 @@ class DepthDelay {
 
   void find_dynamic(const FrameFeatures& features, span<const Label> labels) {
     dynamic_.clear();
+    dynamic_.reserve(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i)
       if (!labels[i].keep && is_finite(features.pixel[i])) dynamic_.push_back({features.pixel[i], features.depth_m[i]});
   }
@@ -108,6 +110,7 @@ class DepthDelay {
   template <class Camera>
   void find_jumps(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
     jumps_.clear();
+    jumps_.reserve(static_cast<std::size_t>(2 * kRows * frame.depth.image.width / kDepthJumpReach_px));
     const DepthScale to_depth(frame.gray, frame.depth.image);
     const float reach_px = kReachShare * static_cast<float>(frame.gray.width);
     for_each_depth_jump(frame.depth, kRows, [&](int u, int v, float nearer_m) {
@@ -118,7 +121,9 @@ class DepthDelay {
           camera.back_project(camera.undistort(pixel.template cast<double>()), static_cast<double>(nearer_m));
       const Vector3d after = current_from_reference * before;
       if (!(after.z() > 0.1 * before.z())) return;
-      jumps_.push_back({pixel, camera.distort(camera.project(after)).template cast<float>() - pixel});
+      // Both by the lens: beyond its range `undistort` has no inverse.
+      const Vector2d flow = camera.distort(camera.project(after)) - camera.distort(camera.project(before));
+      jumps_.push_back({pixel, flow.template cast<float>()});
     });
   }
 
@@ -131,16 +136,19 @@ class DepthDelay {
 
   /// Adds the mean gray step at the moved jumps, over that of all delays and shifts.
   void look(const ImageView& gray) {
+    const int step_px = std::max(gray.width / 320, 1);
+    const std::size_t thinned = 1 + jumps_.size() / kMostJumps;
     float sum = 0.0f;
     for (int d = 0; d < kDelays; ++d)
       for (int s = 0; s < kShifts_x * kShifts_y; ++s) {
-        const int right_px = kShiftStep_px * (s % kShifts_x - kShifts_x / 2);
-        const int down_px = kShiftStep_px * (s / kShifts_x - kShifts_y / 2);
+        const int right_px = step_px * (s % kShifts_x - kShifts_x / 2);
+        const int down_px = step_px * (s / kShifts_x - kShifts_y / 2);
         int steps = 0;
-        for (const Jump& jump : jumps_) {
+        for (std::size_t i = 0; i < jumps_.size(); i += thinned) {
+          const Jump& jump = jumps_[i];
           const Vector2f at = jump.pixel + static_cast<float>(delay(d)) * jump.flow;
           if (gray.border_distance_px(at.x(), at.y()) >= 0.0f)
-            steps += gray_step(gray, rounded(at.x()) + right_px, rounded(at.y()) + down_px, kReach_px);
+            steps += gray_step(gray, rounded(at.x()) + right_px, rounded(at.y()) + down_px, step_px);
         }
         seen_[d][s] = static_cast<float>(steps);
         sum += seen_[d][s];
@@ -161,7 +169,18 @@ class DepthDelay {
     const float gain = fit(best) / fit(kDelays / 2) - 1.0f;
     const bool is_clear =
         frames_ != 0.0 ? gain > kStill : gain > kClearly && gain * std::sqrt(jumps_seen_) > kDeviations;
-    frames_ = is_clear && std::abs(delay(best)) >= kLeastDelay ? delay(best) : 0.0;
+    // Best on the border alone: the images are shifted by more than is searched, and a delay makes up for a part of it.
+    const bool is_inside = fit_inside(best) >= fit(best);
+    const double least = frames_ != 0.0 ? kLeastHeld : kLeastDelay;
+    frames_ = is_clear && is_inside && std::abs(delay(best)) >= least ? delay(best) : 0.0;
+  }
+
+  /// The greatest of all shifts but the farthest.
+  float fit_inside(int d) const noexcept {
+    float greatest = 0.0f;
+    for (int y = 1; y + 1 < kShifts_y; ++y)
+      for (int x = 1; x + 1 < kShifts_x; ++x) greatest = std::max(greatest, step_[d][y * kShifts_x + x]);
+    return greatest;
   }
 
   static double delay(int d) noexcept { return kDelayStep * (d - kDelays / 2); }

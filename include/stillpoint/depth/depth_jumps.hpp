@@ -37,7 +37,7 @@ void for_each_depth_jump(const DepthView& depth, int rows, Visit&& visit) {
   }
 }
 
-/// Where exactly depth jumps, half way between two pixels of a row.
+/// Where depth changes most within a jump, half way between two pixels of a row; a pixel without depth counts as 0.
 /// @param u  in the middle of what was compared
 inline float depth_jump_at(const DepthView& depth, int u, int v) noexcept {
   constexpr int kHalf_px = kDepthJumpReach_px / 2;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A depth image as it would be from another place, or at another moment.
+// A depth image as it would be from another place, or at another time.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ class MovedDepth {
     const DepthScale to_depth(frame.image(), image);
     for (int top = 0; top < image.height; top += kTile_px)
       for (int left = 0; left < image.width; left += kTile_px)
-        move_tile(frame.depth, left, top, Tile(left, top, to_depth, motion, camera));
+        move_tile(frame.depth, left, top, Tile(image, left, top, to_depth, motion, camera));
     close_cracks();
     return DepthView(depth_m_.view());
   }
@@ -49,10 +49,11 @@ class MovedDepth {
     float rotation[3][3], translation_m[3];
 
     template <class Camera>
-    Tile(int left, int top, const DepthScale& to_depth, const Pose& motion, const Camera& camera) {
+    Tile(const ImageView& image, int left, int top, const DepthScale& to_depth, const Pose& motion,
+         const Camera& camera) {
       const Vector2d step_px(1.0 / static_cast<double>(to_depth.x), 1.0 / static_cast<double>(to_depth.y));
-      middle_x = static_cast<float>(left) + 0.5f * kTile_px;
-      middle_y = static_cast<float>(top) + 0.5f * kTile_px;
+      middle_x = 0.5f * static_cast<float>(left + std::min(left + kTile_px, image.width));
+      middle_y = 0.5f * static_cast<float>(top + std::min(top + kTile_px, image.height));
       const Vector2d middle_px((static_cast<double>(middle_x) + 0.5) * step_px.x() - 0.5,
                                (static_cast<double>(middle_y) + 0.5) * step_px.y() - 0.5);
       const auto plane_at = [&](double x_px, double y_px) {

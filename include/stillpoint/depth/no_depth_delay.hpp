@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Depth is taken as it comes.
+// Depth is used as it comes.
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -13,7 +13,7 @@
 
 namespace stillpoint {
 
-/// The null stage: each depth image is of the moment of its image.
+/// The null stage: each depth image is as old as its image.
 struct NoDepthDelay {
   template <class Camera>
   DepthView undo(const FrameView& frame, const Pose&, const Camera&) const noexcept {

@@ -102,8 +102,8 @@ class UseCheck {
     if (warnings.has(Warning::depth_too_near))
       return "Hardly a depth is beyond 1 m: is the depth in millimetres, and declared as TUM's unit?";
     if (warnings.has(Warning::depth_unsynchronised))
-      return "The depth images are of other moments than their images, by half a frame or more: pair them by time, or "
-             "let the sensor synchronise them.";
+      return "Depth images are older or newer than their images, by half the time between frames or more: pair them by "
+             "time, or let the sensor synchronise them.";
     if (warnings.has(Warning::nothing_fits))
       return "Hardly a frame can be judged: are depth and image aligned, of one moment, not mirrored, and the focal "
              "lengths right?";

@@ -16,6 +16,7 @@
 
 #include "mock_policies.hpp"
 #include "stillpoint/core/compact.hpp"
+#include "stillpoint/depth/no_depth_delay.hpp"
 #include "stillpoint/memory/no_memory.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/verdict/no_keep_floor.hpp"
@@ -572,6 +573,56 @@ TEST_F(FrameFilterTest, TheMaskOfAFrameThatWasNotJudgedKeepsAll) {
   EXPECT_EQ(as_mat(mask.view()).at<std::uint8_t>(20, 40), 0);
   at(1.2).mask(mask, 100000);
   EXPECT_EQ(cv::countNonZero(as_mat(mask.view())), 0) << "a disc that covers everything";
+}
+
+/// Says that depth is late, and gives 3 m everywhere in its place.
+struct ThreeMetres : NoDepthDelay {
+  template <class Camera>
+  DepthView undo(const FrameView&, const Pose&, const Camera&) noexcept {
+    return DepthView(undone_m);
+  }
+  template <class Camera>
+  void observe(const FrameView& frame, const FrameFeatures&, span<const Label>, const Motion&, const Camera&) {
+    observed = frame.depth.image.data;
+  }
+  double frames() const noexcept { return 1.0; }
+
+  cv::Mat undone_m = cv::Mat(48, 64, CV_32FC1, cv::Scalar(3.0));
+  const std::uint8_t* observed = nullptr;
+};
+/// Which depth a matcher sees of the last frame, metres.
+struct DepthMatcher : mock::Matcher {
+  void match(const FrameView& reference, const FrameView& current, Matches& matches) {
+    reference_m = reference.depth.metres(10, 10);
+    mock::Matcher::match(reference, current, matches);
+  }
+  float reference_m = 0;
+};
+struct LateDepth : mock::Policies {
+  using Matcher = DepthMatcher;
+  using DepthDelay = ThreeMetres;
+};
+
+TEST(FrameFilter, UsesAndRemembersTheDepthOfTheImagesTimeAndObservesItAsItCame) {
+  FrameFilter<LateDepth> filter(Camera(50, 50, 32, 24, 64, 48));
+  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(3)), depth(48, 64, CV_32FC1, cv::Scalar(1.0));
+  const std::vector<Vector2f> keypoints = {{10, 10}, {20, 20}};
+  filter.filter_frame(FrameView(gray, depth, 1.0), keypoints);
+  const FrameResult& result = filter.filter_frame(FrameView(gray, depth, 1.1), keypoints);
+  ASSERT_EQ(result.status(), Status::ok);
+  EXPECT_EQ(result.depth_m(0), 3.0);
+  EXPECT_EQ(filter.depth_delay.observed, depth.data);
+  filter.filter_frame(FrameView(gray, depth, 1.2), keypoints);
+  EXPECT_EQ(filter.matcher.reference_m, 3.0f);
+}
+
+TEST(FrameFilter, SaysThatDepthIsLateInFramesThatAreNotJudged) {
+  FrameFilter<LateDepth> filter(Camera(50, 50, 32, 24, 64, 48));
+  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(3)), depth(48, 64, CV_32FC1, cv::Scalar(1.0));
+  filter.filter_frame(FrameView(gray, depth, 1.0), std::vector<Vector2f>{{10, 10}});
+  const FrameResult& result = filter.filter_frame(FrameView(gray, depth, 1.1), std::vector<Vector2f>{});
+  EXPECT_EQ(result.status(), Status::no_keypoints);
+  EXPECT_TRUE(result.warnings().has(Warning::depth_unsynchronised));
 }
 
 TEST(FrameFilter, WorksOnOnePixel) {

@@ -80,7 +80,7 @@ TEST(WrongUse, RightUseHasNoHint) {
   EXPECT_EQ(said.hint, "");
 }
 
-// The camera turns fast enough for it to be seen: by some four pixels a frame.
+// The camera turns fast enough for it to be seen: by some four pixels per frame.
 TEST(WrongUse, DepthOfTheFrameBefore) {
   cv::Mat before;
   const Said said =
