@@ -5,9 +5,9 @@
 // Is the depth image as old as the image?   If it is older, its edges lie where those of the image were before.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
@@ -64,7 +64,7 @@ class DepthDelay {
     frames_ = 0.0;
     frame_ = 0;
     jumps_seen_ = 0.0f;
-    for (auto& of_delay : step_) std::fill(of_delay.begin(), of_delay.end(), 0.0f);
+    for (auto& of_delay : step_) std::fill(std::begin(of_delay), std::end(of_delay), 0.0f);
   }
 
  private:
@@ -162,7 +162,7 @@ class DepthDelay {
   }
 
   void decide() noexcept {
-    const auto fit = [&](int d) { return *std::max_element(step_[d].begin(), step_[d].end()); };
+    const auto fit = [&](int d) { return *std::max_element(std::begin(step_[d]), std::end(step_[d])); };
     int best = kDelays / 2;
     for (int d = 0; d < kDelays; ++d)
       if (fit(d) > fit(best)) best = d;
@@ -185,8 +185,8 @@ class DepthDelay {
 
   static double delay(int d) noexcept { return kDelayStep * (d - kDelays / 2); }
 
-  using Shifts = std::array<float, kShifts_x * kShifts_y>;
-  std::array<Shifts, kDelays> step_{}, seen_{};  // gray steps by delay and shift, over their mean, by jumps
+  using Fits = float[kDelays][kShifts_x * kShifts_y];
+  Fits step_{}, seen_{};  // gray steps by delay and shift, over their mean, by jumps
   std::vector<DynamicFeature> dynamic_;
   std::vector<Jump> jumps_;
   std::size_t frame_ = 0;
