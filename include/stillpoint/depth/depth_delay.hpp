@@ -73,6 +73,7 @@ class DepthDelay {
   static constexpr std::size_t kFewestJumps = 20;     // in a frame
   static constexpr std::size_t kMostJumps = 400;      // more are thinned out
   static constexpr int kDelays = 9;                   // from one frame too new to one too old …
+  static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
   static constexpr double kDelayStep = 0.25;          // … of frames
   static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
   static constexpr float kFading = 0.98f;             // of what was seen, with each look
@@ -163,10 +164,10 @@ class DepthDelay {
 
   void decide() noexcept {
     const auto fit = [&](int d) { return *std::max_element(std::begin(step_[d]), std::end(step_[d])); };
-    int best = kDelays / 2;
+    int best = kNoDelay;
     for (int d = 0; d < kDelays; ++d)
       if (fit(d) > fit(best)) best = d;
-    const float gain = fit(best) / fit(kDelays / 2) - 1.0f;
+    const float gain = fit(best) / fit(kNoDelay) - 1.0f;
     const bool is_clear =
         frames_ != 0.0 ? gain > kStill : gain > kClearly && gain * std::sqrt(jumps_seen_) > kDeviations;
     // Best on the border alone: the images are shifted by more than is searched, and a delay makes up for a part of it.
@@ -183,7 +184,7 @@ class DepthDelay {
     return greatest;
   }
 
-  static double delay(int d) noexcept { return kDelayStep * (d - kDelays / 2); }
+  static double delay(int d) noexcept { return kDelayStep * (d - kNoDelay); }
 
   using Fits = float[kDelays][kShifts_x * kShifts_y];
   Fits step_{}, seen_{};  // gray steps by delay and shift, over their mean, by jumps
