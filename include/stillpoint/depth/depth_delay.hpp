@@ -73,8 +73,8 @@ class DepthDelay {
   static constexpr std::size_t kFewestJumps = 20;     // in a frame
   static constexpr std::size_t kMostJumps = 400;      // more are thinned out
   static constexpr int kDelays = 9;                   // from one frame too new to one too old …
-  static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
   static constexpr double kDelayStep = 0.25;          // … of frames
+  static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
   static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
   static constexpr float kFading = 0.98f;             // of what was seen, with each look
   static constexpr float kClearly = 0.15f;            // a delay is better than none by this share …
@@ -84,6 +84,8 @@ class DepthDelay {
   static constexpr double kLeastHeld = 0.25;          // … unless more was found before
   static constexpr float kReachShare = 0.1f;          // of the width: so near to a dynamic feature …
   static constexpr double kSameObject_m = 0.3;        // … and about as deep, a jump is that object's
+
+  using Fits = float[kDelays][kShifts_x * kShifts_y];
 
   struct DynamicFeature {
     Vector2f pixel;
@@ -115,8 +117,7 @@ class DepthDelay {
     const DepthScale to_depth(frame.gray, frame.depth.image);
     const float reach_px = kReachShare * static_cast<float>(frame.gray.width);
     for_each_depth_jump(frame.depth, kRows, [&](int u, int v, float nearer_m) {
-      const Vector2f pixel((depth_jump_at(frame.depth, u, v) + 0.5f) / to_depth.x - 0.5f,
-                           (static_cast<float>(v) + 0.5f) / to_depth.y - 0.5f);
+      const Vector2f pixel = to_depth.inverse({depth_jump_at(frame.depth, u, v), static_cast<float>(v)});
       if (is_dynamic(pixel, static_cast<double>(nearer_m), reach_px)) return;
       const Vector3d before =
           camera.back_project(camera.undistort(pixel.template cast<double>()), static_cast<double>(nearer_m));
@@ -139,6 +140,7 @@ class DepthDelay {
   void look(const ImageView& gray) {
     const int step_px = std::max(gray.width / 320, 1);
     const std::size_t thinned = 1 + jumps_.size() / kMostJumps;
+    Fits seen;
     float sum = 0.0f;
     for (int d = 0; d < kDelays; ++d)
       for (int s = 0; s < kShifts_x * kShifts_y; ++s) {
@@ -151,15 +153,15 @@ class DepthDelay {
           if (gray.border_distance_px(at.x(), at.y()) >= 0.0f)
             steps += gray_step(gray, rounded(at.x()) + right_px, rounded(at.y()) + down_px, step_px);
         }
-        seen_[d][s] = static_cast<float>(steps);
-        sum += seen_[d][s];
+        seen[d][s] = static_cast<float>(steps);
+        sum += seen[d][s];
       }
     if (!(sum > 0.0f)) return;
     const auto count = static_cast<float>(jumps_.size());
     jumps_seen_ = kFading * jumps_seen_ + count;
     for (int d = 0; d < kDelays; ++d)
       for (int s = 0; s < kShifts_x * kShifts_y; ++s)
-        step_[d][s] = kFading * step_[d][s] + seen_[d][s] * (count * kDelays * kShifts_x * kShifts_y) / sum;
+        step_[d][s] = kFading * step_[d][s] + seen[d][s] * (count * kDelays * kShifts_x * kShifts_y) / sum;
   }
 
   void decide() noexcept {
@@ -186,8 +188,7 @@ class DepthDelay {
 
   static double delay(int d) noexcept { return kDelayStep * (d - kNoDelay); }
 
-  using Fits = float[kDelays][kShifts_x * kShifts_y];
-  Fits step_{}, seen_{};  // gray steps by delay and shift, over their mean, by jumps
+  Fits step_{};  // gray steps by delay and shift, over their mean, by jumps
   std::vector<DynamicFeature> dynamic_;
   std::vector<Jump> jumps_;
   std::size_t frame_ = 0;

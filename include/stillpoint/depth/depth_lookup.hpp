@@ -28,6 +28,11 @@ struct DepthScale {
     return {(pixel.x() + 0.5f) * x - 0.5f, (pixel.y() + 0.5f) * y - 0.5f};
   }
 
+  /// From a pixel of the depth image to one of the image.
+  Vector2f inverse(const Vector2f& depth_pixel) const noexcept {
+    return {(depth_pixel.x() + 0.5f) / x - 0.5f, (depth_pixel.y() + 0.5f) / y - 0.5f};
+  }
+
  private:
   /// Mostly both images have one size: nothing to divide.
   static float ratio(int depth_px, int image_px) noexcept {

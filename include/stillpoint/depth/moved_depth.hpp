@@ -54,8 +54,7 @@ class MovedDepth {
       const Vector2d step_px(1.0 / static_cast<double>(to_depth.x), 1.0 / static_cast<double>(to_depth.y));
       middle_x = 0.5f * static_cast<float>(left + std::min(left + kTile_px, image.width));
       middle_y = 0.5f * static_cast<float>(top + std::min(top + kTile_px, image.height));
-      const Vector2d middle_px((static_cast<double>(middle_x) + 0.5) * step_px.x() - 0.5,
-                               (static_cast<double>(middle_y) + 0.5) * step_px.y() - 0.5);
+      const Vector2d middle_px = to_depth.inverse({middle_x, middle_y}).template cast<double>();
       const auto plane_at = [&](double x_px, double y_px) {
         return camera.back_project(camera.undistort(Vector2d(x_px, y_px)), 1.0);
       };

@@ -114,33 +114,30 @@ struct NoDepthDelay;  // depth/no_depth_delay.hpp
 
 namespace detail {
 
-template <class Policies, class = void>
-struct NamedDepthDelay {
-  using type = NoDepthDelay;
-};
 template <class Policies>
-struct NamedDepthDelay<Policies, std::void_t<typename Policies::DepthDelay>> {
-  using type = typename Policies::DepthDelay;
-};
+using named_depth_delay = typename Policies::DepthDelay;
+template <class Policies>
+using named_movers = typename Policies::Movers;
 
-template <class Policies, class = void>
-struct NamedMovers {
-  using type = NoMovers;
+/// The stage that a set names, or the null stage where it names none.
+template <template <class> class Named, class Policies, class Null, class = void>
+struct named_or {
+  using type = Null;
 };
-template <class Policies>
-struct NamedMovers<Policies, std::void_t<typename Policies::Movers>> {
-  using type = typename Policies::Movers;
+template <template <class> class Named, class Policies, class Null>
+struct named_or<Named, Policies, Null, std::void_t<Named<Policies>>> {
+  using type = Named<Policies>;
 };
 
 }  // namespace detail
 
-/// The stage that a set has for depth of another moment: `NoDepthDelay` where it names none.
+/// The stage that a set has for depth of another time: `NoDepthDelay` where it names none.
 template <class Policies>
-using DepthDelayOf = typename detail::NamedDepthDelay<Policies>::type;
+using DepthDelayOf = typename detail::named_or<detail::named_depth_delay, Policies, NoDepthDelay>::type;
 
 /// The stage that a set has for movers: `NoMovers` where it names none.
 template <class Policies>
-using MoversOf = typename detail::NamedMovers<Policies>::type;
+using MoversOf = typename detail::named_or<detail::named_movers, Policies, NoMovers>::type;
 
 /// Does a set follow movers? What depends on it is not even compiled where it does not.
 template <class Policies>
