@@ -62,44 +62,52 @@ struct MyPolicies : stillpoint::DefaultPolicies {
 };
 // [policies]
 
-/// Runs a filter over a scene whose truth is known, and prints how it did.
-template <class Filter>
-void run(const char* name, const stillpoint::synthetic::Scene& scene, Filter& filter) {
-  stillpoint::SyntheticSequence sequence(scene);
-  stillpoint::SyntheticFrame frame;
-  const auto orb = cv::ORB::create(500);
+using Keypoints = std::vector<cv::KeyPoint>;
+
+/// How a filter did, and what it had to say at last.
+struct Record {
   stillpoint::FilterScore score;
   const char* hint = "";
-  for (int i = 0; i < sequence.size(); ++i) {
-    sequence.render(i, frame);
-    std::vector<cv::KeyPoint> keypoints;
-    orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
-    const stillpoint::FrameResult& result = filter.filter_frame(frame.view(), keypoints);
-    std::vector<stillpoint::Vector2f> pixels;
-    for (const cv::KeyPoint& keypoint : keypoints) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
-    score.add_frame(frame.labels.view(), pixels, result.keep());
-    hint = result.hint();
-  }
-  std::printf("%-22s recall %.3f, false-positive rate %.4f %s\n", name, score.recall().value_or(0.0),
-              score.false_positive_rate().value_or(0.0), hint);
+};
+
+/// Adds what a filter says of a frame whose truth is known.
+template <class Filter>
+void judge(Filter& filter, const stillpoint::SyntheticFrame& frame, const Keypoints& keypoints, Record& record) {
+  const stillpoint::FrameResult& result = filter.filter_frame(frame.view(), keypoints);
+  std::vector<stillpoint::Vector2f> pixels;
+  for (const cv::KeyPoint& keypoint : keypoints) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
+  record.score.add_frame(frame.labels.view(), pixels, result.keep());
+  record.hint = result.hint();
+}
+
+void print(const char* name, const Record& record) {
+  std::printf("%-22s recall %.3f, false-positive rate %.4f %s\n", name, record.score.recall().value_or(0.0),
+              record.score.false_positive_rate().value_or(0.0), record.hint);
 }
 
 }  // namespace
 
 int main() {
-  const stillpoint::synthetic::Scene scene = stillpoint::synthetic::demo();
-  stillpoint::FrameFilter<> usual(scene.camera);
-  run("TailGate", scene, usual);
+  stillpoint::SyntheticSequence sequence(stillpoint::synthetic::demo());
+  stillpoint::FrameFilter<> usual(sequence.camera());
+  stillpoint::FrameFilter<MyPolicies> strict(sequence.camera()), lenient(sequence.camera());
+  lenient.gate.options.sigmas = 6.0;
 
-  stillpoint::FrameFilter<MyPolicies> filter(scene.camera);
-  for (const double sigmas : {3.0, 6.0}) {
-    filter.reset();  // another run of the scene
-    filter.gate.options.sigmas = sigmas;
-    char name[32];
-    std::snprintf(name, sizeof name, "MedianGate, %.0f sigmas", sigmas);
-    run(name, scene, filter);
+  Record of_usual, of_strict, of_lenient;
+  stillpoint::SyntheticFrame frame;
+  Keypoints keypoints;
+  const auto orb = cv::ORB::create(500);
+  for (int i = 0; i < sequence.size(); ++i) {
+    sequence.render(i, frame);
+    orb->detect(stillpoint::as_mat(frame.gray.view()), keypoints);
+    judge(usual, frame, keypoints, of_usual);
+    judge(strict, frame, keypoints, of_strict);
+    judge(lenient, frame, keypoints, of_lenient);
   }
+  print("TailGate", of_usual);
+  print("MedianGate, 3 sigmas", of_strict);
+  print("MedianGate, 6 sigmas", of_lenient);
 
-  filter.gate.options.sigmas = -1.0;
-  std::printf("refused: %s\n", filter.options_error().c_str());
+  lenient.gate.options.sigmas = -1.0;
+  std::printf("refused: %s\n", lenient.options_error().c_str());
 }

@@ -15,7 +15,7 @@
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/trajectory_file.hpp"
 
-namespace stillpoint {
+namespace stillpoint::evo_test {
 namespace {
 
 #ifdef STILLPOINT_SHARED_DATA
@@ -80,4 +80,4 @@ TEST(Evo, EveryRowOfTheExpectedFiguresIsReproduced) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::evo_test

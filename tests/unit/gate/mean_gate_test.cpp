@@ -13,7 +13,7 @@
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/pipeline/policy_traits.hpp"
 
-namespace stillpoint {
+namespace stillpoint::mean_gate_test {
 namespace {
 
 static_assert(is_gate<MeanGate>::value);
@@ -105,4 +105,4 @@ TEST(MeanGate, GivesItsScratchBack) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::mean_gate_test

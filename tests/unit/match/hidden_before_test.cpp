@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace stillpoint {
+namespace stillpoint::hidden_before_test {
 namespace {
 
 Observation shown(float dissimilarity, float offset_px) {
@@ -74,4 +74,4 @@ TEST(HiddenBefore, AFrameThatSawNothingChangesNothing) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::hidden_before_test

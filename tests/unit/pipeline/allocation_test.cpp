@@ -12,7 +12,7 @@
 #include "stillpoint/policies.hpp"
 #include "unit/counted_allocations.hpp"
 
-namespace stillpoint {
+namespace stillpoint::allocation_test {
 namespace {
 
 using counted_allocations::count_in;
@@ -134,4 +134,4 @@ TEST(Allocation, ColourFramesAndMasksReuseTheirMemoryToo) {
 }
 
 }  // namespace
-}  // namespace stillpoint
+}  // namespace stillpoint::allocation_test

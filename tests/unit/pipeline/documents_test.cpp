@@ -48,10 +48,10 @@ struct Wall {
   }
 };
 
-const stillpoint::Camera kCamera(260, 260, 159.5, 119.5, 320, 240);
+const stillpoint::Camera kDocumentCamera(260, 260, 159.5, 119.5, 320, 240);
 
 TEST(Documents, AStereoPairBeforeTheFilter) {
-  const stillpoint::Camera &left_camera = kCamera, &right_camera = kCamera;
+  const stillpoint::Camera &left_camera = kDocumentCamera, &right_camera = kDocumentCamera;
   stillpoint::Pose right_from_left = stillpoint::Pose::Identity();
   right_from_left.translation().x() = -0.1;
   Wall wall;
@@ -72,7 +72,7 @@ const auto& result = filter.filter_frame({rectified_left, depth, time}, keypoint
 }
 
 TEST(Documents, TheTripodsPoliciesRun) {
-  stillpoint::FrameFilter<TripodPolicies> filter(kCamera);
+  stillpoint::FrameFilter<TripodPolicies> filter(kDocumentCamera);
   const Wall wall;
   for (int i = 0; i < 5; ++i) {
     const auto& result = filter.filter_frame(
@@ -90,7 +90,7 @@ struct MyDetector {
 };
 
 TEST(Documents, TheDetectorsLoopRuns) {
-  stillpoint::FrameFilter<> filter(kCamera);
+  stillpoint::FrameFilter<> filter(kDocumentCamera);
   const Wall wall;
   const cv::Mat &gray = wall.gray, &depth = wall.depth;
   const std::vector<cv::KeyPoint>& keypoints = wall.keypoints;
