@@ -76,11 +76,11 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const F
     if (says("--false-positive-rate")) set.gate.options.false_positive_rate = options.false_positive_rate;
     if (says("--seed")) support_motion(set.ego_motion).options.seed = options.seed;
   });
-  if constexpr (std::is_base_of_v<SwitchedPolicies, Policies>) {
+  if constexpr (std::is_base_of_v<WithSwitchedMovers, Policies>) {
     filter.ego_motion.kind = motion_kind(options.ego_motion);
     filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;
+    filter.movers.tracking.is_on = options.has_movers();
   }
-  if constexpr (std::is_base_of_v<WithSwitchedMovers, Policies>) filter.movers.tracking.is_on = options.has_movers();
   switch_off(options.without, filter);
   return filter;
 }
@@ -102,11 +102,7 @@ decltype(auto) with_filter(const Options& options, const FrameSource& source, Us
   using stillpoint::PaperPolicies;
   using stillpoint::PaperRigidPolicies;
   if (options.prior == "labels") return use(examples::OracleFilter{});
-  if (options.policies == "default") {
-    if (options.ego_motion != "default" || options.without.needs_other_stages())
-      return use(detail::default_filter<Watched<SwitchedPolicies>>(options, source));
-    return use(detail::default_filter<Watched<WithSwitchedMovers>>(options, source));
-  }
+  if (options.policies == "default") return use(detail::default_filter<Watched<WithSwitchedMovers>>(options, source));
   if (options.policies == "monocular")
     return use(detail::monocular_filter<Watched<stillpoint::MonocularPolicies>>(options, source));
   if (options.ego_motion == "rigid") return use(detail::paper_filter<Watched<PaperRigidPolicies>>(options, source));

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The filter with movers whose options are in no file: one filter to compile, whether the program follows them or not.
+// The default filter with all that the command line switches, movers too: one filter to compile, whatever was asked for.
 
+#include "corrections_policies.hpp"
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/movers/mover_tracking.hpp"
-#include "stillpoint/policies/default_policies.hpp"
 
 namespace stillpoint_run {
 
@@ -27,7 +27,7 @@ struct SwitchedMovers {
   void reset() { tracking.reset(); }
 };
 
-struct WithSwitchedMovers : stillpoint::DefaultPolicies {
+struct WithSwitchedMovers : SwitchedPolicies {
   using Movers = SwitchedMovers;
 };
 

@@ -113,10 +113,18 @@ inline Vector3d vector_from_rotation(const Matrix3d& rotation) {
   return 2.0 * std::atan2(sine, std::abs(q.w())) * (axis / (q.w() < 0.0 ? -sine : sine));  // q and -q are the same
 }
 
+/// By its elements: g++ 12 says of Eigen's, with -O1 and its assertions, that it may be used uninitialised.
+inline Matrix3d transposed(const Matrix3d& matrix) {
+  Matrix3d result;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) result(row, column) = matrix(column, row);
+  return result;
+}
+
 /// The motion back: source_from_target. What `Pose::inverse` gives; that compiles four ways to invert for the one that
 /// is taken, a fifth of a second in every file.
 inline Pose inverted(const Pose& motion) {
-  const Matrix3d rotation = rotation_of(motion).transpose();
+  const Matrix3d rotation = transposed(rotation_of(motion));
   return make_pose(rotation, -(rotation * translation_of(motion)));
 }
 

@@ -15,9 +15,9 @@ namespace stillpoint {
 /// Whether a pose is one: finite, and a rotation with a translation but for what rounding and drift leave.
 inline bool is_rigid(const Pose& pose) {
   constexpr double kDrift = 0.01;  // of products of many rotations in single precision, far more than rounding
-  const Matrix3d rotation = rotation_of(pose), transposed = rotation.transpose();
+  const Matrix3d rotation = rotation_of(pose);
   return is_finite(pose.matrix()) && rotation.lpNorm<Eigen::Infinity>() < 2.0 &&
-         (transposed * rotation - Matrix3d(Matrix3d::Identity())).norm() < kDrift &&
+         (transposed(rotation) * rotation - Matrix3d(Matrix3d::Identity())).norm() < kDrift &&
          rotation.determinant() > 0.0;  // no mirror
 }
 
