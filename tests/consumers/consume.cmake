@@ -22,9 +22,6 @@ if(COMPONENT STREQUAL "options")
 else()
   list(APPEND arguments -DCMAKE_DISABLE_FIND_PACKAGE_yaml-cpp=ON)
 endif()
-if(COMPONENT STREQUAL "compiled")  # as the library was
-  list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS}")
-endif()
 if(COMPONENT STREQUAL "onnxruntime")
   list(APPEND arguments "-DONNXRUNTIME_ROOT=${ONNXRUNTIME_ROOT}")
 endif()
@@ -32,8 +29,8 @@ if(STANDARD)
   list(APPEND arguments "-DCMAKE_CXX_STANDARD=${STANDARD}" -DCMAKE_CXX_STANDARD_REQUIRED=ON -DCMAKE_CXX_EXTENSIONS=OFF)
   unset(ENV{CXXFLAGS})  # those of the library's compiler
 endif()
-if(NOT COMPONENT MATCHES "^(compiled|shim)$" AND NOT COMPILER MATCHES "clang")
-  list(APPEND arguments "-DCMAKE_CXX_FLAGS=-O1")  # g++ takes longer without it, for all that it then writes out
+if(NOT COMPILER MATCHES "clang")  # as the library was; without -O1 g++ takes longer, for all that it then writes out
+  list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS} -O1")
 endif()
 unset(ENV{CMAKE_BUILD_TYPE})
 
