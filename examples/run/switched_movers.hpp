@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// The default filter with all that the command line switches, movers too: one filter to compile, whatever was asked for.
+// The default filter with all that the command line switches, movers too: one filter to compile for all of them.
 
 #include "corrections_policies.hpp"
 #include "stillpoint/core/capabilities.hpp"
