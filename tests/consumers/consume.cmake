@@ -31,6 +31,8 @@ if(STANDARD)
 endif()
 if(NOT COMPILER MATCHES "clang")  # as the library was; without -O1 g++ takes longer, for all that it then writes out
   list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS} -O1")
+elseif(COMPONENT STREQUAL "compiled")
+  list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS}")
 endif()
 unset(ENV{CMAKE_BUILD_TYPE})
 
