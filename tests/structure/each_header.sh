@@ -4,8 +4,9 @@
 
 # each_header.sh WORK_FOLDER FLAG...: each header alone, twice, by clang++, as structure_each_header does it where there is
 # no clang++. A header that includes one of the hubs anyway, itself or by another header, finds it precompiled, with all
-# that the hub includes: what a header lacks is not among those. ONNXRUNTIME_INCLUDE: a folder, or the headers that need
-# it are left out.
+# that the hub includes: what a header lacks is not among those. Each is compiled as a header to be, which leaves templates
+# to whoever uses them: those are instantiated once, where all headers are compiled together; and here for detectors/, which
+# are not among these. ONNXRUNTIME_INCLUDE: a folder, or the headers that need it are left out.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 work=$1
@@ -52,8 +53,10 @@ while read -r header hub; do
   fi
   [[ $hub == - ]] || optional+=(-include-pch "$work/${hub//\//_}.pch")
   count=$((count + 1))
+  compile=(-x c++-header -o "$work/header.pch")
+  [[ $header != */detectors/* ]] || compile=(-x c++ -fsyntax-only)
   printf '#include "%s"\n#include "%s"\n' "$header" "$header" |
-    clang++ "${flags[@]}" "${optional[@]}" -fsyntax-only -x c++ - ||
+    clang++ "${flags[@]}" "${optional[@]}" "${compile[@]}" - ||
     { echo "$header does not compile alone"; bad=$((bad + 1)); }
 done < <(headers_and_hubs)
 echo "$((count - bad)) of $count headers compile alone"
