@@ -110,13 +110,19 @@ class PlacedSolid {
     return {lit, cosine, std::log2(std::max(texels, 1.0f))};
   }
 
+  /// Of a face, for `colour`.
+  /// @param level  of the texture's pyramid
+  TextureSampler sampler(int face, float level) const noexcept {
+    return solid_->textures[static_cast<std::size_t>(face)]->sampler(level);
+  }
+
   /// Colour of the surface where a ray meets it, not lit.
-  Bgr colour(const Ray& ray, const Hit& hit, float level) const noexcept {
+  Bgr colour(const Ray& ray, const Hit& hit, const TextureSampler& sampler) const noexcept {
     const int axis = hit.face / 2, across = axis == 0 ? 2 : 0, down = axis == 1 ? 2 : 1;
     const float shift = 0.37f * static_cast<float>(hit.face);  // another part of the tile on every face
     const float x = origin_[across] + hit.depth_m * along(across, ray) + half_[across] + shift;
     const float y = origin_[down] + hit.depth_m * along(down, ray) + half_[down] + shift;
-    return solid_->textures[static_cast<std::size_t>(hit.face)]->sample(x, y, level);
+    return sampler(x, y);
   }
 
  private:
@@ -198,11 +204,20 @@ class RayGrid {
     return rays_[static_cast<std::size_t>(v + 1) * stride_ + static_cast<std::size_t>(u + 1)];
   }
 
-  /// Ray beside the centre of a pixel, by parts of a pixel.
-  Ray beside(int u, int v, float du, float dv) const noexcept {
-    const Ray &centre = at(u, v), &left = at(u - 1, v), &right = at(u + 1, v), &up = at(u, v - 1), &down = at(u, v + 1);
-    return {centre.x + 0.5f * (du * (right.x - left.x) + dv * (down.x - up.x)),
-            centre.y + 0.5f * (du * (right.y - left.y) + dv * (down.y - up.y))};
+  /// Rays through one pixel.
+  struct Pixel {
+    Ray centre, per_column, per_row;  ///< the latter two: twice the change from pixel to pixel
+
+    /// The ray beside its centre, by parts of a pixel.
+    Ray beside(float du, float dv) const noexcept {
+      return {centre.x + 0.5f * (du * per_column.x + dv * per_row.x),
+              centre.y + 0.5f * (du * per_column.y + dv * per_row.y)};
+    }
+  };
+
+  Pixel pixel(int u, int v) const noexcept {
+    const Ray &left = at(u - 1, v), &right = at(u + 1, v), &up = at(u, v - 1), &down = at(u, v + 1);
+    return {at(u, v), {right.x - left.x, right.y - left.y}, {down.x - up.x, down.y - up.y}};
   }
 
   /// Pixels [u_begin, u_end) × [v_begin, v_end).

@@ -160,11 +160,13 @@ class SyntheticSequence {
   /// Mean of 2 × 2 samples of the face.
   Bgr face_colour(int u, int v, std::uint16_t key, const Shading& shading, float depth_m) const noexcept {
     const PlacedSolid& placed = surfaces_.actors()[key / 8].placed;
+    const int face = key % 8;
+    const TextureSampler sampler = placed.sampler(face, shading.level);
+    const RayGrid::Pixel pixel = grid_.pixel(u, v);
     Bgr sum;
     for (int i = 0; i < 4; ++i) {
-      const Ray ray = grid_.beside(u, v, offset(i & 1, 2), offset(i >> 1, 2));
-      add(placed.colour(ray, {placed.depth_on_face(ray, key % 8, depth_m), key % 8}, shading.level),
-          0.25f * shading.lit, sum);
+      const Ray ray = pixel.beside(offset(i & 1, 2), offset(i >> 1, 2));
+      add(placed.colour(ray, {placed.depth_on_face(ray, face, depth_m), face}, sampler), 0.25f * shading.lit, sum);
     }
     return sum;
   }
@@ -175,9 +177,10 @@ class SyntheticSequence {
     near_.clear();
     for (const Actor& actor : surfaces_.actors())
       if (actor.window.contains(u, v)) near_.push_back(&actor.placed);
+    const RayGrid::Pixel pixel = grid_.pixel(u, v);
     Bgr sum;
     for (int i = 0; i < kSide * kSide; ++i) {
-      const Ray ray = grid_.beside(u, v, offset(i % kSide, kSide), offset(i / kSide, kSide));
+      const Ray ray = pixel.beside(offset(i % kSide, kSide), offset(i / kSide, kSide));
       Hit first{1e9f, 0}, hit;
       const PlacedSolid* seen = nullptr;
       for (const PlacedSolid* const placed : near_)
@@ -187,7 +190,7 @@ class SyntheticSequence {
         }
       if (seen == nullptr) continue;
       const Shading shading = seen->shading(ray, first, sample_width_);
-      add(seen->colour(ray, first, shading.level), shading.lit / (kSide * kSide), sum);
+      add(seen->colour(ray, first, seen->sampler(first.face, shading.level)), shading.lit / (kSide * kSide), sum);
     }
     return sum;
   }

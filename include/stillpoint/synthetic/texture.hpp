@@ -37,6 +37,66 @@ struct TextureStyle {
   double coverage = 0.3;  ///< share of the area that each size of marks covers
 };
 
+/// One level of a texture's pyramid: a square of texels.
+struct TextureLevel {
+  /// Three channels in lanes of 16 bits, blue the lowest: times weights that sum to 256 no lane overflows.
+  using Texel = std::uint64_t;
+
+  int size;                   ///< a power of two
+  std::vector<Texel> texels;  ///< texel i of level l covers [i, i + 1) · 2^l of the finest one's coordinates
+
+  /// @param x, y  1/256 of a texel
+  Bgr bilinear(float x, float y) const noexcept {
+    const int fixed_x = static_cast<int>(x) - 128, fixed_y = static_cast<int>(y) - 128;
+    const auto fx = static_cast<Texel>(fixed_x & 255), fy = static_cast<Texel>(fixed_y & 255);
+    const int mask = size - 1;
+    const int left = (fixed_x >> 8) & mask, right = (left + 1) & mask;
+    const int top = (fixed_y >> 8) & mask, bottom = (top + 1) & mask;
+    const Texel* const upper = texels.data() + static_cast<std::ptrdiff_t>(top) * size;
+    const Texel* const under = texels.data() + static_cast<std::ptrdiff_t>(bottom) * size;
+    const Texel both = (fx * fy + 128) >> 8;
+    const Texel sum = upper[left] * (256 - fx - fy + both) + upper[right] * (fx - both) + under[left] * (fy - both) +
+                      under[right] * both;
+    constexpr float kUnit = 1.0f / 256.0f;
+    return {kUnit * static_cast<float>(static_cast<int>(sum & 0xffff)),
+            kUnit * static_cast<float>(static_cast<int>((sum >> 16) & 0xffff)),
+            kUnit * static_cast<float>(static_cast<int>((sum >> 32) & 0xffff))};
+  }
+};
+
+/// A texture at one footprint: between two levels of its pyramid. Valid as long as the texture.
+class TextureSampler {
+ public:
+  /// @param levels  of the pyramid, the finest first   @param level  log2 of the footprint, texels
+  TextureSampler(const std::vector<TextureLevel>& levels, float texels_per_metre, float level) noexcept
+      : texels_per_metre_(texels_per_metre) {
+    const float last = static_cast<float>(levels.size() - 1);
+    const float wanted = level > 0.0f ? (level < last ? level : last) : 0.0f;
+    const int lower = static_cast<int>(wanted);
+    fine_ = levels.data() + lower;
+    fine_scale_ = 256.0f / static_cast<float>(1 << lower);
+    coarse_scale_ = 256.0f / static_cast<float>(2 << lower);
+    share_ = wanted - static_cast<float>(lower);
+  }
+
+  /// Colour at a place on the surface, metres. Linear in the position and between levels: without a jump when the
+  /// surface moves by a part of a pixel.
+  Bgr operator()(float x_m, float y_m) const noexcept {
+    const float x = x_m * texels_per_metre_, y = y_m * texels_per_metre_;
+    const Bgr fine = fine_->bilinear(x * fine_scale_, y * fine_scale_);
+    if (share_ <= 0.0f) return fine;
+    const Bgr coarse = fine_[1].bilinear(x * coarse_scale_, y * coarse_scale_);
+    return {fine.blue + share_ * (coarse.blue - fine.blue), fine.green + share_ * (coarse.green - fine.green),
+            fine.red + share_ * (coarse.red - fine.red)};
+  }
+
+ private:
+  float texels_per_metre_;
+  const TextureLevel* fine_;
+  float fine_scale_, coarse_scale_;  // 1/256 of a texel of each level per texel of the finest
+  float share_;                      // of the coarser level
+};
+
 /// A painted tile of size × size texels.
 class Texture {
  public:
@@ -48,7 +108,7 @@ class Texture {
     if (!(texels_per_metre > 0))
       throw Error("texture: texels_per_metre is " + std::to_string(texels_per_metre) + ", expected more than 0");
     if (style.colours.empty()) throw Error("texture: no colour in the style, expected at least one");
-    levels_.push_back({size_px, std::vector<std::uint32_t>(place(size_px, size_px, 0))});
+    levels_.push_back({size_px, std::vector<Texel>(place(size_px, size_px, 0))});
     Random random(seed);
     paint_ground(style, random);
     for (double mark_m = style.largest_mark_m; mark_m >= style.smallest_mark_m; mark_m *= 0.5)
@@ -58,72 +118,31 @@ class Texture {
 
   float texels_per_metre() const noexcept { return texels_per_metre_; }
 
-  /// Colour at a place on the surface, metres, averaged over a footprint of 2^`level` texels. Linear in the position
-  /// and between levels: without a jump when the surface moves by a part of a pixel.
-  Bgr sample(float x_m, float y_m, float level) const noexcept {
-    const float last = static_cast<float>(levels_.size() - 1);
-    const float wanted = level > 0.0f ? (level < last ? level : last) : 0.0f;
-    const auto lower = static_cast<std::size_t>(wanted);
-    const float share = wanted - static_cast<float>(lower);
-    const float x = x_m * texels_per_metre_, y = y_m * texels_per_metre_;
-    const Bgr fine = bilinear(lower, x, y);
-    if (share <= 0.0f) return fine;
-    const Bgr coarse = bilinear(lower + 1, x, y);
-    return {fine.blue + share * (coarse.blue - fine.blue), fine.green + share * (coarse.green - fine.green),
-            fine.red + share * (coarse.red - fine.red)};
-  }
+  /// To look it up, averaged over a footprint of 2^`level` texels.
+  TextureSampler sampler(float level) const noexcept { return {levels_, texels_per_metre_, level}; }
 
  private:
-  /// Texels as 0x00RRGGBB. Texel i of level l covers [i, i + 1) · 2^l of the finest one's coordinates.
-  struct Level {
-    int size;
-    std::vector<std::uint32_t> texels;
-  };
+  using Level = TextureLevel;
+  using Texel = TextureLevel::Texel;
 
   /// Index of an element of a row-major square.
   static std::size_t place(int size, int row, int column) noexcept {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(column);
   }
 
-  static std::uint32_t packed(const Bgr& colour) noexcept {
-    const auto byte = [](float value) { return static_cast<std::uint32_t>(std::min(255.0f, std::max(0.0f, value))); };
-    return byte(colour.blue) | byte(colour.green) << 8 | byte(colour.red) << 16;
-  }
-
-  /// Three channels in lanes of 16 bits: times weights that sum to 256 no lane overflows.
-  static std::uint64_t lanes(std::uint32_t texel) noexcept {
-    const std::uint64_t wide = texel;
-    return (wide & 0xff) | (wide & 0xff00) << 8 | (wide & 0xff0000) << 16;
-  }
-
-  Bgr bilinear(std::size_t index, float x, float y) const noexcept {
-    const Level& level = levels_[index];
-    const float scale = 256.0f / static_cast<float>(1 << index);
-    const int fixed_x = static_cast<int>(x * scale) - 128, fixed_y = static_cast<int>(y * scale) - 128;
-    const auto fx = static_cast<std::uint64_t>(fixed_x & 255), fy = static_cast<std::uint64_t>(fixed_y & 255);
-    const int mask = level.size - 1;
-    const int left = (fixed_x >> 8) & mask, right = (left + 1) & mask;
-    const int top = (fixed_y >> 8) & mask, bottom = (top + 1) & mask;
-    const std::uint32_t* const upper = level.texels.data() + static_cast<std::ptrdiff_t>(top) * level.size;
-    const std::uint32_t* const under = level.texels.data() + static_cast<std::ptrdiff_t>(bottom) * level.size;
-    const std::uint64_t both = (fx * fy + 128) >> 8;
-    const std::uint64_t sum = lanes(upper[left]) * (256 - fx - fy + both) + lanes(upper[right]) * (fx - both) +
-                              lanes(under[left]) * (fy - both) + lanes(under[right]) * both;
-    constexpr float kUnit = 1.0f / 256.0f;
-    return {kUnit * static_cast<float>(static_cast<int>(sum & 0xffff)),
-            kUnit * static_cast<float>(static_cast<int>((sum >> 16) & 0xffff)),
-            kUnit * static_cast<float>(static_cast<int>((sum >> 32) & 0xffff))};
+  static Texel packed(const Bgr& colour) noexcept {
+    const auto byte = [](float value) { return static_cast<Texel>(std::min(255.0f, std::max(0.0f, value))); };
+    return byte(colour.blue) | byte(colour.green) << 16 | byte(colour.red) << 32;
   }
 
   static Level halved(const Level& fine) {
-    Level coarse{fine.size / 2, std::vector<std::uint32_t>(place(fine.size / 2, fine.size / 2, 0))};
+    Level coarse{fine.size / 2, std::vector<Texel>(place(fine.size / 2, fine.size / 2, 0))};
     for (int y = 0; y < coarse.size; ++y) {
-      const std::uint32_t* const row = fine.texels.data() + static_cast<std::ptrdiff_t>(2 * y) * fine.size;
+      const Texel* const row = fine.texels.data() + static_cast<std::ptrdiff_t>(2 * y) * fine.size;
+      Texel* const mean = coarse.texels.data() + static_cast<std::ptrdiff_t>(y) * coarse.size;
       for (int x = 0; x < coarse.size; ++x) {
-        const std::uint64_t sum = lanes(row[2 * x]) + lanes(row[2 * x + 1]) + lanes(row[fine.size + 2 * x]) +
-                                  lanes(row[fine.size + 2 * x + 1]) + 0x0002'0002'0002u;
-        coarse.texels[place(coarse.size, y, x)] =
-            static_cast<std::uint32_t>(((sum >> 2) & 0xff) | ((sum >> 18) & 0xff) << 8 | ((sum >> 34) & 0xff) << 16);
+        const Texel sum = row[2 * x] + row[2 * x + 1] + row[fine.size + 2 * x] + row[fine.size + 2 * x + 1];
+        mean[x] = ((sum + 0x0002'0002'0002u) >> 2) & 0x00ff'00ff'00ffu;
       }
     }
     return coarse;
@@ -140,17 +159,18 @@ class Texture {
         std::max(1, static_cast<int>(std::lround(size / (style.cell_m * static_cast<double>(texels_per_metre_)))));
     std::vector<double> gains(place(cells, cells, 0));
     for (double& gain : gains) gain = random.uniform(0.8, 1.15);
+    int log_size = 0;
+    while (1 << log_size < size) ++log_size;
     for (int y = 0; y < size; ++y) {
-      const int row = y * cells / size;
+      const int row = y * cells >> log_size, into_row = y * cells & (size - 1);
       for (int x = 0; x < size; ++x) {
-        const int column = x * cells / size;
+        const int column = x * cells >> log_size, into_column = x * cells & (size - 1);
         double gain = 1.0;
         switch (style.ground) {
           case Ground::plain: break;
-          case Ground::planks: gain = y * cells % size < 2 * cells ? 0.5 : gains[static_cast<std::size_t>(row)]; break;
+          case Ground::planks: gain = into_row < 2 * cells ? 0.5 : gains[static_cast<std::size_t>(row)]; break;
           case Ground::tiles:
-            gain =
-                y * cells % size < 3 * cells || x * cells % size < 3 * cells ? 0.6 : gains[place(cells, row, column)];
+            gain = into_row < 3 * cells || into_column < 3 * cells ? 0.6 : gains[place(cells, row, column)];
             break;
           case Ground::stripes: gain = (column & 1) != 0 ? 0.75 : 1.0; break;
           case Ground::blocks: gain = gains[place(cells, row, column)]; break;
@@ -172,7 +192,7 @@ class Texture {
       const double angle = random.uniform() < 0.5 ? 0.0 : random.uniform(0.0, 3.141592653589793);
       const auto cosine = static_cast<float>(std::cos(angle)), sine = static_cast<float>(std::sin(angle));
       const Bgr colour = brighter(style.colours[random.index(style.colours.size())], random.uniform(0.75, 1.2));
-      const std::uint32_t value = packed(colour), inner = packed(brighter(colour, 0.6));
+      const Texel value = packed(colour), inner = packed(brighter(colour, 0.6));
       const std::size_t kind = random.index(4);
       const int centre_x = static_cast<int>(random.index(static_cast<std::size_t>(size)));
       const int centre_y = static_cast<int>(random.index(static_cast<std::size_t>(size)));

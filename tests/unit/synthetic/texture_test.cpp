@@ -33,8 +33,8 @@ TEST(Texture, IsEqualForEqualSeedsAndDiffersForOthers) {
   const Texture first = texture(3), again = texture(3), other = texture(4);
   int differences = 0;
   for (float x = 0; x < 1; x += 0.03f) {
-    EXPECT_EQ(first.sample(x, 0.4f, 0.5f).red, again.sample(x, 0.4f, 0.5f).red);
-    differences += first.sample(x, 0.4f, 0.5f).red != other.sample(x, 0.4f, 0.5f).red;
+    EXPECT_EQ(first.sampler(0.5f)(x, 0.4f).red, again.sampler(0.5f)(x, 0.4f).red);
+    differences += first.sampler(0.5f)(x, 0.4f).red != other.sampler(0.5f)(x, 0.4f).red;
   }
   EXPECT_GT(differences, 10);
 }
@@ -43,8 +43,8 @@ TEST(Texture, RepeatsWithoutASeam) {
   const Texture tile = texture(5);
   for (float y = 0.1f; y < 1; y += 0.07f)
     for (const float level : {0.0f, 1.5f, 3.0f}) {
-      EXPECT_FLOAT_EQ(tile.sample(0.25f, y, level).green, tile.sample(1.25f, y, level).green);
-      EXPECT_NEAR(tile.sample(0.999f, y, level).green, tile.sample(1.001f, y, level).green, 0.15f * 256);
+      EXPECT_FLOAT_EQ(tile.sampler(level)(0.25f, y).green, tile.sampler(level)(1.25f, y).green);
+      EXPECT_NEAR(tile.sampler(level)(0.999f, y).green, tile.sampler(level)(1.001f, y).green, 0.15f * 256);
     }
 }
 
@@ -52,11 +52,11 @@ TEST(Texture, IsLinearBetweenTexelCentres) {
   const Texture tile = texture(6);
   for (int x = 3; x < 40; ++x) {
     const float centre = (static_cast<float>(x) + 0.5f) * kTexel, row = 20.5f * kTexel;
-    const float here = tile.sample(centre, row, 0).blue, next = tile.sample(centre + kTexel, row, 0).blue;
-    EXPECT_NEAR(tile.sample(centre + 0.25f * kTexel, row, 0).blue, 0.75f * here + 0.25f * next, 1e-3f);
+    const float here = tile.sampler(0)(centre, row).blue, next = tile.sampler(0)(centre + kTexel, row).blue;
+    EXPECT_NEAR(tile.sampler(0)(centre + 0.25f * kTexel, row).blue, 0.75f * here + 0.25f * next, 1e-3f);
     // Half way between two levels: their mean.
-    EXPECT_NEAR(tile.sample(centre, row, 1.5f).blue,
-                0.5f * (tile.sample(centre, row, 1).blue + tile.sample(centre, row, 2).blue), 1e-3f);
+    EXPECT_NEAR(tile.sampler(1.5f)(centre, row).blue,
+                0.5f * (tile.sampler(1)(centre, row).blue + tile.sampler(2)(centre, row).blue), 1e-3f);
   }
 }
 
@@ -66,8 +66,8 @@ TEST(Texture, LevelsAreMeansOfTheirTexels) {
   float sum = 0;
   for (int y = 8; y < 12; ++y)
     for (int x = 16; x < 20; ++x)
-      sum += tile.sample((static_cast<float>(x) + 0.5f) * kTexel, (static_cast<float>(y) + 0.5f) * kTexel, 0).red;
-  EXPECT_NEAR(tile.sample(18.0f * kTexel, 10.0f * kTexel, 2).red, sum / 16, 1.0f);
+      sum += tile.sampler(0)((static_cast<float>(x) + 0.5f) * kTexel, (static_cast<float>(y) + 0.5f) * kTexel).red;
+  EXPECT_NEAR(tile.sampler(2)(18.0f * kTexel, 10.0f * kTexel).red, sum / 16, 1.0f);
 }
 
 }  // namespace
