@@ -27,12 +27,14 @@ if(COMPONENT STREQUAL "onnxruntime")
 endif()
 if(STANDARD)
   list(APPEND arguments "-DCMAKE_CXX_STANDARD=${STANDARD}" -DCMAKE_CXX_STANDARD_REQUIRED=ON -DCMAKE_CXX_EXTENSIONS=OFF)
-  unset(ENV{CXXFLAGS})  # those of the library's compiler
 endif()
+unset(ENV{CXXFLAGS})  # those of the library's compiler, which are in FLAGS as well
 if(NOT COMPILER MATCHES "clang")  # as the library was; without -O1 g++ takes longer, for all that it then writes out
   list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS} -O1")
-elseif(COMPONENT STREQUAL "compiled")
-  list(APPEND arguments "-DCMAKE_CXX_FLAGS=${FLAGS}")
+elseif(COMPONENT STREQUAL "compiled")  # of the flags of the library's compiler those that make the same ABI
+  string(REGEX MATCHALL " -m[^ ]+" machine_flags " ${FLAGS}")
+  list(JOIN machine_flags "" machine_flags)
+  list(APPEND arguments "-DCMAKE_CXX_FLAGS=${machine_flags}")
 endif()
 unset(ENV{CMAKE_BUILD_TYPE})
 

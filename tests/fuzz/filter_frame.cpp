@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The default filter on a sequence of small frames: any keypoints, depths, times, boxes, poses, cameras, in any order.
-// One program with shim.cpp and the shim itself, compiled as one file: the filter takes long to compile.
+// The default filter, with movers, on a sequence of small frames: any keypoints, depths, times, boxes, poses, cameras,
+// in any order. One program with shim.cpp and the shim itself, compiled as one file: the filter takes long to compile.
 
 #include <algorithm>
 #include <cmath>
@@ -20,12 +20,15 @@
 #include "shim.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/opencv.hpp"
-#include "stillpoint/policies.hpp"
+#include "stillpoint/policies/default_policies.hpp"
+#include "stillpoint/policies/with_movers.hpp"
 
 namespace fuzz {
 namespace {
 
 using namespace stillpoint;
+
+using Filter = FrameFilter<WithMovers<>>;
 
 Camera make_camera(Bytes& bytes) {
   const int width = bytes.integer(1, 48), height = bytes.integer(1, 48);
@@ -42,7 +45,7 @@ Pose make_pose(Bytes& bytes) {
   return pose;
 }
 
-void set_boxes(Bytes& bytes, double timestamp_s, FrameFilter<>& filter) {
+void set_boxes(Bytes& bytes, double timestamp_s, Filter& filter) {
   std::vector<Detection> detections(static_cast<std::size_t>(bytes.integer(0, 4)));
   for (Detection& detection : detections) {
     detection.box = {bytes.single(-5, 40), bytes.single(-5, 40), bytes.single(-1, 40), bytes.single(-1, 40)};
@@ -63,7 +66,7 @@ JudgedFrames frames_of_filter("the filter");
 
 /// @param depth_factor  units per metre of a 16-bit depth
 /// @return              how many keypoints it had
-std::size_t filter_one(Bytes& bytes, double timestamp_s, double depth_factor, FrameFilter<>& filter) {
+std::size_t filter_one(Bytes& bytes, double timestamp_s, double depth_factor, Filter& filter) {
   int width = filter.camera.width(), height = filter.camera.height();
   if (bytes.integer(0, 15) == 0) width = bytes.integer(1, 48);
   const cv::Mat gray = make_gray(bytes, width, height), depth = make_depth(bytes, width, height);
@@ -85,6 +88,12 @@ std::size_t filter_one(Bytes& bytes, double timestamp_s, double depth_factor, Fr
   }
   require(kept == result.kept_count());
   ImageBuffer mask;
+  for (const Mover& mover : result.movers()) {
+    require(mover.centroid.allFinite() && mover.velocity.allFinite() && mover.velocity_covariance.allFinite());
+    require(mover.current_from_reference.matrix().allFinite() && mover.covariance.allFinite());
+    for (const std::uint32_t feature : result.features(mover)) require(result.mover(feature) == &mover);
+    result.mask(mover, mask, 5);
+  }
   result.mask(mask, 5);
   return keypoints.size();
 }
@@ -125,7 +134,7 @@ class DrawOptions {
 };
 
 /// Any options within their ranges.
-void set_options(Bytes& bytes, FrameFilter<>& filter) {
+void set_options(Bytes& bytes, Filter& filter) {
   DrawOptions draw(bytes);
   each_option(filter, draw);
   require(filter.options_error().empty());
@@ -135,7 +144,7 @@ void set_options(Bytes& bytes, FrameFilter<>& filter) {
 
 void run_filter(Bytes& bytes) {
   constexpr int kMostFrames = 12;
-  FrameFilter<> filter(make_camera(bytes));
+  Filter filter(make_camera(bytes));
   ImageBuffer mask;
   double timestamp_s = 1.0;
   std::vector<std::uint8_t> is_dynamic;
