@@ -20,7 +20,7 @@
 #include "accuracy_sequence.hpp"
 #include "filter_run.hpp"
 #include "host_tracks.hpp"
-#include "run/corrections.hpp"
+#include "run/switch_off.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
 #include "tally.hpp"

@@ -17,10 +17,10 @@
 
 #include "run/detection_feed.hpp"
 #include "run/filters.hpp"
-#include "run/frame_record.hpp"
 #include "run/frame_source.hpp"
 #include "run/image_offsets.hpp"
 #include "run/overlay.hpp"
+#include "run/write_down.hpp"
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/number_format.hpp"

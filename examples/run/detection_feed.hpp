@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "detector_record.hpp"
 #include "frame_source.hpp"
 #include "network.hpp"
 #include "options.hpp"
@@ -25,15 +26,6 @@
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint_run {
-
-/// What became of the frames that a network was offered.
-struct DetectorRecord {
-  stillpoint::DetectorLayout layout = stillpoint::DetectorLayout::automatic;
-  stillpoint::InputSize input;
-  stillpoint::DetectorCounters counters;
-  std::vector<double> times_ms;  ///< of each detection that went well
-  std::string last_error;        ///< empty: all went well
-};
 
 /// Where the prior's answers come from. This one has none.
 class DetectionFeed {

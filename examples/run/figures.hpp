@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "detection_feed.hpp"
+#include "detector_record.hpp"
 #include "frame_record.hpp"
 #include "map_files.hpp"
 #include "stillpoint/core/span.hpp"

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "../backends/oracle_filter.hpp"
-#include "corrections.hpp"
 #include "frame_source.hpp"
 #include "options.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
@@ -19,6 +18,7 @@
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/policies.hpp"
+#include "switch_off.hpp"
 #include "switched_movers.hpp"
 #include "watched_prior.hpp"
 

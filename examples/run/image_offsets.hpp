@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frame_record.hpp"
+#include "frame_source.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/match/lucas_kanade.hpp"

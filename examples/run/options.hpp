@@ -23,6 +23,7 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/detectors/layout.hpp"
+#include "stillpoint/gate/tail_gate.hpp"
 #include "stillpoint/version.hpp"
 
 namespace stillpoint_run {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "frame_record.hpp"
+#include "frame_source.hpp"
 #include "image_offsets.hpp"
 #include "words.hpp"
 

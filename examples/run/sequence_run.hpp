@@ -20,7 +20,6 @@
 #include "figures.hpp"
 #include "filters.hpp"
 #include "frame_clock.hpp"
-#include "frame_record.hpp"
 #include "frame_source.hpp"
 #include "interrupt.hpp"
 #include "options.hpp"
@@ -33,6 +32,7 @@
 #include "stillpoint/verdict/keep_flags.hpp"
 #include "video_file.hpp"
 #include "video_frame.hpp"
+#include "write_down.hpp"
 
 namespace stillpoint_run {
 

@@ -14,14 +14,9 @@
 #include "stillpoint/detectors/async_detector.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/prior/propagated_prior.hpp"
+#include "used_region.hpp"
 
 namespace stillpoint_run {
-
-/// One region as the filter had it.
-struct UsedRegion {
-  stillpoint::Detection detection;
-  bool is_carried = false;  ///< it was seen in an earlier frame, not in this one
-};
 
 /// @tparam Prior  `BoxPrior` or what is built on it
 template <class Prior>
