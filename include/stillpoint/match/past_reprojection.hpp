@@ -17,6 +17,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_shadow.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
 #include "stillpoint/match/hidden_before.hpp"
@@ -64,6 +65,7 @@ class PastReprojection {
     Matches& matches = observations.matches;
     look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
                       matches.past_observations.frames());
+    const DepthShadow shadow(current, camera);
     SamePlace same_place(kNeighbourhood_px);
     for (const std::size_t i : matches.past_observations.order) {
       const bool may_share = i < matches.host_count && is_finite(matches.current.undistorted[i]);
@@ -75,7 +77,7 @@ class PastReprojection {
         look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), std::numeric_limits<float>::infinity(),
              history, current, camera, noise, matches);
       } else if (i < matches.host_count && is_finite(matches.current.undistorted[i])) {
-        look_beside(i, history, current, camera, noise, matches);
+        look_beside(i, shadow, history, current, camera, noise, matches);
       }
     }
     space.count_views_through(history.space(), current.timestamp_s, filter_from_current, camera, noise, matches);
@@ -121,10 +123,12 @@ class PastReprojection {
 
   /// A feature without a depth: if it stands still, an older frame may have measured it, else it lies on one of the
   /// surfaces beside it. Taken is where it looks most as if it stood. Where it looks changed there, too, no frame has
-  /// confirmed the depth: it stays a guess. Where no frame can be compared, nothing is supposed.
+  /// confirmed the depth: it stays a guess. Where no frame can be compared, nothing is supposed. In a shadow of the
+  /// sensor it lies on the farther surface, and where it looks changed its patch holds what hides it: nothing is known
+  /// of it.
   template <class Camera, class Noise>
-  void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
-                   const Noise& noise, Matches& matches) const {
+  void look_beside(std::size_t i, const DepthShadow& shadow, const FrameHistory& history, const FrameView& current,
+                   const Camera& camera, const Noise& noise, Matches& matches) const {
     const SurroundingDepth beside =
         surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard, noise);
     if (!(beside.farthest_m > 0)) return;
@@ -156,9 +160,14 @@ class PastReprojection {
       if (clearly_stands(i, frames)) return;
       for (std::size_t f = 0; f < frames.size(); ++f) least_unlike[f] = frames[f].of_feature[i];
     }
-    if (best == count || std::none_of(least_unlike.begin(), least_unlike.begin() + frames.size(), is_compared))
-      return forget(i, matches);
-    const bool is_confirmed = least < kNoEvidence * static_cast<float>(frames.size());
+    const bool any_compared =
+        best < count && std::any_of(least_unlike.begin(), least_unlike.begin() + frames.size(), is_compared);
+    const bool is_confirmed = any_compared && least < kNoEvidence * static_cast<float>(frames.size());
+    if (!is_confirmed) {
+      const double farther_m = shadow.farther_m(matches.current.pixel[i]);
+      if (farther_m > 0) return lie_in_shadow(i, farther_m, camera, matches);
+      if (!any_compared) return forget(i, matches);
+    }
     suppose(i, candidates[best], is_confirmed ? spread_of(best) : kSupposedSpread / candidates[best], camera, matches);
     for (std::size_t f = 0; f < frames.size(); ++f) frames[f].of_feature[i] = least_unlike[f];
   }
@@ -181,6 +190,13 @@ class PastReprojection {
     matches.past_observations.point[i].setConstant(std::numeric_limits<double>::quiet_NaN());
     matches.past_observations.inverse_depth_sigma[i] = std::numeric_limits<double>::infinity();
     for (OlderFrame& older : matches.past_observations.frames()) older.of_feature[i] = Observation{};
+  }
+
+  /// The feature lies on the farther surface, and no frame says more of it.
+  template <class Camera>
+  static void lie_in_shadow(std::size_t i, double farther_m, const Camera& camera, Matches& matches) {
+    forget(i, matches);
+    suppose(i, farther_m, kBridgedSpread / farther_m, camera, matches);
   }
 
   /// Looks for a feature in every older frame.

@@ -255,6 +255,26 @@ TEST_F(PastReprojectionTest, WhatWasHiddenLiesOnNoKnownSurface) {
   EXPECT_TRUE(std::isnan(matches_.past_observations.point[0].z()));
 }
 
+// Two pillars at 0.8 m before a wall at 2 m, each with a shadow of 200 · 0.05 · (1 / 0.8 − 1 / 2) = 7.5 px of the wall
+// on its left, in all 15 rows that are measured. What looks changed in a shadow lies on the wall, and nothing more is
+// known; what looks the same was seen in its place as ever, and a hole of another width may lie on either surface.
+TEST_F(PastReprojectionTest, InAShadowOfTheSensorAFeatureLiesOnTheFartherSurface) {
+  for (const int pillar : {80, 130}) {
+    depth_.colRange(pillar, pillar + 20).setTo(0.8);
+    depth_.colRange(pillar - 8, pillar).setTo(0.0);
+  }
+  older_depth_ = wall(0.0);
+  EXPECT_EQ(look({75, 60}).state, ObservationState::seen);
+  older_gray_ = 255 - gray_;
+  EXPECT_EQ(look({75, 60}).state, ObservationState::none);
+  EXPECT_EQ(matches_.past_observations.point[0].z(), 2.0);
+  EXPECT_FALSE(matches_.past_observations.is_guess(0));
+  depth_.colRange(70, 80).setTo(0.0);
+  depth_.colRange(115, 130).setTo(0.0);
+  EXPECT_EQ(look({75, 60}).state, ObservationState::seen);
+  EXPECT_TRUE(matches_.past_observations.is_guess(0));
+}
+
 TEST_F(PastReprojectionTest, WithoutAnOlderDepthThePatchIsComparedAllTheSame) {
   older_depth_ = wall(0.0);
   const Observation observation = look({80, 60});
