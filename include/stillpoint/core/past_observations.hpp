@@ -114,4 +114,10 @@ class PastObservations {
   std::size_t count_ = 0;
 };
 
+// Names of 0.1; gone in 0.4.
+using SightingState [[deprecated("ObservationState")]] = ObservationState;
+using Sighting [[deprecated("Observation")]] = Observation;
+using SurfaceSighting [[deprecated("SurfaceObservation")]] = SurfaceObservation;
+using Sightings [[deprecated("PastObservations")]] = PastObservations;
+
 }  // namespace stillpoint

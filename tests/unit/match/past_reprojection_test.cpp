@@ -421,6 +421,9 @@ TEST(PastReprojectionInARoom, WhatMovesIsElsewhereOrLooksDifferent) {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"
 static_assert(std::is_same_v<LookBack, PastReprojection>, "the name of 0.1");
+static_assert(std::is_same_v<Sighting, Observation> && std::is_same_v<SightingState, ObservationState> &&
+                  std::is_same_v<SurfaceSighting, SurfaceObservation> && std::is_same_v<Sightings, PastObservations>,
+              "names of 0.1");
 #pragma GCC diagnostic pop
 
 }  // namespace
