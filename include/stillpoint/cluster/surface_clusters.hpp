@@ -85,7 +85,7 @@ class SurfaceClusters {
   static constexpr std::uint64_t kSeed = Random::kDefaultSeed;
   static constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-  /// What the prior adds. In a box, what has no depth may lie before or behind the thing.
+  /// What the prior adds. In a box, what has no depth may lie before or behind the object.
   float shift(const Membership& region, bool any_dynamic, bool has_depth) const noexcept {
     const bool in_any = region.in_dynamic || region.in_movable || region.in_fixed;
     if (in_any && !has_depth) return 0.0f;

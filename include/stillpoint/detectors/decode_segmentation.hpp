@@ -132,7 +132,7 @@ inline std::shared_ptr<const BoxMask> mask_of(const ConnectedPart& part) {
 
 /// Appends a box with a mask for each part of a class whose cells touch at an edge; its score is the mean over them.
 /// Time linear in the cells.
-/// @param smallest_share  of the picture; what is smaller is left out
+/// @param smallest_share  of the image; what is smaller is left out
 inline void append_parts(const LabelMap& map, const DecodeSettings& settings, float smallest_share,
                          std::vector<RawDetection>& found) {
   const float px_per_column = static_cast<float>(settings.input.width) / static_cast<float>(map.columns);

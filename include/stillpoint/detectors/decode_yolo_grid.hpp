@@ -78,7 +78,7 @@ inline void decode_yolox(const Tensor& output, const DecodeSettings& settings, s
 }
 
 /// Whether rows as YOLOX's are still to be decoded: logarithms of sizes may be negative, and no middle is far from its
-/// cell, while decoded ones are all over the picture.
+/// cell, while decoded ones are all over the image.
 inline bool yolox_is_undecoded(const Tensor& output) noexcept {
   constexpr float kFarthest = 16.0f;  // raw ones stay below 4, decoded ones reach the input's width
   const std::ptrdiff_t fields = output.shape.last();

@@ -29,7 +29,7 @@ struct DetectorOptions {
   std::optional<YoloCoding> coding;       ///< none: that of the family, for layouts `yolov3` to `yolov7`
   std::optional<int> first_class_number;  ///< how the network calls `classes[0]`; none: as usual for the layout
   std::vector<std::string> outputs;       ///< names of the outputs that are read; none: all that the network has
-  float smallest_part = 0.002f;           ///< of a segmented picture: smaller connected parts are left out
+  float smallest_part = 0.002f;           ///< of a segmented image: smaller connected parts are left out
 };
 
 }  // namespace stillpoint

@@ -67,7 +67,7 @@ class OpenCvDetector {
   OpenCvDetector& operator=(OpenCvDetector&&) = default;
 
   /// Finds what the network knows, the most confident first.
-  /// @param image       BGR; gray is taken as a colourless picture; 8 bit
+  /// @param image       BGR; gray is taken as a colourless image; 8 bit
   /// @param detections  pixels of the image, cut at its border; what was in it is dropped
   /// @throws Error if the image is empty or of another format, or the network cannot be run.
   void detect(const ImageView& image, std::vector<Detection>& detections) {

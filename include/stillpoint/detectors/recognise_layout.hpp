@@ -106,8 +106,8 @@ inline bool is_three_a_cell(const InputSize& input, int boxes) {
          boxes == 3 * (cells_of(input, 16) + cells_of(input, 32));
 }
 
-/// A picture, not a list: K x 7 is no picture.
-inline bool is_picture(int rows, int columns) noexcept { return rows >= 8 && columns >= 8; }
+/// An image, not a list: K x 7 is no image.
+inline bool is_image(int rows, int columns) noexcept { return rows >= 8 && columns >= 8; }
 
 }  // namespace detail
 
@@ -117,7 +117,7 @@ inline bool fits_layout(DetectorLayout layout, span<const Tensor> outputs, const
   const TensorShape& s = outputs[0].shape;
   const int nc = class_count;
   const bool one_list = outputs.size() == 1 && s.rank() == 3 && s[0] == 1;
-  const bool one_picture = outputs.size() == 1 && s.rank() == 4 && s[0] == 1;
+  const bool one_image = outputs.size() == 1 && s.rank() == 4 && s[0] == 1;
   const auto mask_fields = [&](const BoxesAndPrototypes& parts) { return parts.prototypes->shape[1]; };
   switch (layout) {
     case DetectorLayout::mask_rcnn: {
@@ -125,7 +125,7 @@ inline bool fits_layout(DetectorLayout layout, span<const Tensor> outputs, const
       const int channels = parts ? parts.masks->shape[1] : 0;
       return parts && channels >= nc - 1 && channels <= nc + 1;
     }
-    case DetectorLayout::ssd: return one_picture && s[1] == 1 && s[3] == 7;
+    case DetectorLayout::ssd: return one_image && s[1] == 1 && s[3] == 7;
     case DetectorLayout::yolov7_end2end: return outputs.size() == 1 && s.rank() == 2 && s[1] == 7;
     case DetectorLayout::end2end: return one_list && s[1] <= 1000 && s[2] == 6;
     case DetectorLayout::detr:  // a box for each cell would be something else
@@ -157,11 +157,11 @@ inline bool fits_layout(DetectorLayout layout, span<const Tensor> outputs, const
     }
     case DetectorLayout::darknet: return detail::is_darknet(outputs, input, nc);
     case DetectorLayout::segmentation:
-      return one_picture && detail::is_picture(s[2], s[3]) && (s[1] <= 2 || s[1] == nc || s[1] == nc + 1);
+      return one_image && detail::is_image(s[2], s[3]) && (s[1] <= 2 || s[1] == nc || s[1] == nc + 1);
     case DetectorLayout::label_map:
       return outputs.size() == 1 && s[0] == 1 &&
-             ((s.rank() == 4 && s[3] == 1 && detail::is_picture(s[1], s[2])) ||
-              (s.rank() == 3 && outputs[0].whole_numbers && detail::is_picture(s[1], s[2])));
+             ((s.rank() == 4 && s[3] == 1 && detail::is_image(s[1], s[2])) ||
+              (s.rank() == 3 && outputs[0].whole_numbers && detail::is_image(s[1], s[2])));
     default: return false;
   }
 }

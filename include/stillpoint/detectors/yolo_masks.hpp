@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Masks of YOLO's segmentation variants: each box mixes prototypes that cover the whole picture
+// Masks of YOLO's segmentation variants: each box mixes prototypes that cover the whole image
 // (Bolya et al., "YOLACT", 2019).
 
 #include <algorithm>

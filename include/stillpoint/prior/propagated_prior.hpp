@@ -42,20 +42,20 @@ class PropagatedPrior : public ForegroundPrior {
   /// @param timestamp_s  of the frame that was looked at
   void detected(double timestamp_s, const std::vector<Detection>& found) {
     if (!(timestamp_s > last_answer_s_)) return;
-    const double interval_s = pictures_.empty() ? 0.0 : pictures_.newest().elapsed_s;
-    if (pictures_.empty() || timestamp_s > pictures_.newest().timestamp_s + 0.5 * interval_s) {
+    const double interval_s = images_.empty() ? 0.0 : images_.newest().elapsed_s;
+    if (images_.empty() || timestamp_s > images_.newest().timestamp_s + 0.5 * interval_s) {
       detections = found;
       is_answered_ = true;
       return;
     }
     // The pipeline judges from its second frame on: an answer of the first is taken for one of the second.
-    if (timestamp_s < pictures_[0].timestamp_s - 1.5 * interval_s) return;
-    take_late(pictures_.nearest(timestamp_s), found);
+    if (timestamp_s < images_[0].timestamp_s - 1.5 * interval_s) return;
+    take_late(images_.nearest(timestamp_s), found);
   }
 
   /// The regions of a frame: what was seen in it, as it was handed over, then what is carried.
   void regions(const FrameView& frame, Regions& regions) {
-    const ImageMotion& image = pictures_.push(frame);
+    const ImageMotion& image = images_.push(frame);
     for (CarriedDetection& object : objects_) {
       object.predict(image);
       follow_depth(frame.depth, DepthScale(frame.image(), frame.depth.image), object);
@@ -77,9 +77,9 @@ class PropagatedPrior : public ForegroundPrior {
   template <class Camera>
   void observe(const Observations& observations, const Motion& motion, const Camera& camera) {
     const Matches& matches = observations.matches;
-    if (pictures_.empty()) return;
-    pictures_.reserve(matches.size());
-    ImageMotion& image = pictures_.newest();
+    if (images_.empty()) return;
+    images_.reserve(matches.size());
+    ImageMotion& image = images_.newest();
     // Frames without keypoints lie between: these steps are a part of the way.
     if (motion.reference_timestamp_s > image.timestamp_s - 0.99 * image.elapsed_s) return;
     image.set_steps(matches);
@@ -94,7 +94,7 @@ class PropagatedPrior : public ForegroundPrior {
   /// Forgets objects and frames; `detections` stay, they are of the coming frame.
   void reset() noexcept {
     objects_.clear();
-    pictures_.clear();
+    images_.clear();
     last_answer_s_ = -std::numeric_limits<double>::infinity();
   }
 
@@ -124,19 +124,19 @@ class PropagatedPrior : public ForegroundPrior {
     fresh_.clear();
     for (const Detection& seen : found) {
       if (!is_valid(seen)) continue;
-      CarriedDetection object(seen, pictures_[frame].timestamp_s);
-      set_range(pictures_[frame].depth(), pictures_[frame].to_depth(), object.detection);
-      object.correct(pictures_[frame], kFewestFeatures, workspace_);
-      for (std::size_t i = frame + 1; i < pictures_.size(); ++i) {
-        const ImageMotion& image = pictures_[i];
+      CarriedDetection object(seen, images_[frame].timestamp_s);
+      set_range(images_[frame].depth(), images_[frame].to_depth(), object.detection);
+      object.correct(images_[frame], kFewestFeatures, workspace_);
+      for (std::size_t i = frame + 1; i < images_.size(); ++i) {
+        const ImageMotion& image = images_[i];
         object.predict(image);
         follow_depth(image.depth(), image.to_depth(), object);
         object.correct(image, kFewestFeatures, workspace_);
       }
       fresh_.push_back(object);
     }
-    merge(pictures_[frame].timestamp_s);
-    forget(pictures_.newest());
+    merge(images_[frame].timestamp_s);
+    forget(images_.newest());
   }
 
   /// Pairs what was seen with what is carried, the best overlap first. What is left over is new, or was missed.
@@ -181,7 +181,7 @@ class PropagatedPrior : public ForegroundPrior {
     if (is_valid(grown)) regions.detections.push_back(grown);
   }
 
-  ImageMotions pictures_;
+  ImageMotions images_;
   std::vector<CarriedDetection> objects_, fresh_;
   bool is_answered_ = false;  // even if `detections` is empty
   double last_answer_s_ = -std::numeric_limits<double>::infinity();

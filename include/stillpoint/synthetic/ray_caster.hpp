@@ -88,7 +88,7 @@ class PlacedSolid {
             origin_[2] + depth_m * along(2, ray)};
   }
 
-  /// @param sample_width  distance between two samples of the picture at a depth of 1 m, metres
+  /// @param sample_width  distance between two samples of the image at a depth of 1 m, metres
   Shading shading(const Ray& ray, const Hit& hit, float sample_width) const noexcept {
     const float d[3] = {along(0, ray), along(1, ray), along(2, ray)};
     const int axis = hit.face / 2;

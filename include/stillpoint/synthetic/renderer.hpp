@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Scene → frames: pictures, depth and truth, any frame at any time and always the same bytes.
+// Scene → frames: images, depth and truth, any frame at any time and always the same bytes.
 
 #include <algorithm>
 #include <array>

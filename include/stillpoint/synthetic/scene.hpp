@@ -95,7 +95,7 @@ struct Mover {
   }
 };
 
-/// How good the camera is. Everything off: exact depth (rounded to the factor's steps) and a clean picture.
+/// How good the camera is. Everything off: exact depth (rounded to the factor's steps) and a clean image.
 /// `realistic_kinect()` has everything on.
 struct Sensor {
   double image_sigma = 2.0;       ///< gaussian noise, grey levels, the same on all three channels of a pixel
@@ -145,7 +145,7 @@ struct MotionRule {
   int window_frames = 5;        ///< within so many frames; frames before the first stand for the first
 };
 
-/// All of a sequence but the pictures.
+/// All of a sequence but the images.
 struct Scene {
   std::string name = "unnamed";
   Camera camera{525.0, 525.0, 319.5, 239.5, 640, 480};
