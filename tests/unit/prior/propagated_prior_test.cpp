@@ -10,6 +10,8 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
@@ -478,6 +480,12 @@ TEST_F(PropagatedPriorTest, WithoutDepthTheFeaturesInTheBoxCarryIt) {
     EXPECT_FALSE(only_thing().has_depth_range());
   }
 }
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::is_same_v<decltype(std::declval<const PropagatedPrior&>().things()), span<const CarriedDetection>>,
+              "objects() was things() in 0.1");
+#pragma GCC diagnostic pop
 
 }  // namespace
 }  // namespace stillpoint

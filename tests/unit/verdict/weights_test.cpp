@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <limits>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "unit/verdict/told_result.hpp"
@@ -50,6 +52,12 @@ TEST_F(Weights, AFrameThatWasNotJudgedWeighsOneEverywhere) {
   weights(filter.filter_frame(FrameView(gray, DepthView(), 1.0), std::vector<Vector2f>{{0, 0}, {1, 1}}), found);
   EXPECT_EQ(found, (std::vector<float>{1.0f, 1.0f})) << "one entry per feature, whatever was there before";
 }
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+static_assert(std::is_same_v<decltype(std::declval<const FrameResult&>().verdict(0)), const Label&>,
+              "label(i) was verdict(i) in 0.1");
+#pragma GCC diagnostic pop
 
 }  // namespace
 }  // namespace stillpoint::weights_test
