@@ -40,14 +40,16 @@ class Letterbox {
     top = (input.height - height) / 2;
   }
 
-  /// Cuts off what lies in the bars or outside the input, of the mask too. False if nothing is left.
+  /// Cuts off what lies in the bars or outside the input, of the mask too. False if nothing is left, or less than a
+  /// thousandth of a pixel of the input: scaled to a small image its extent may be 0.
   bool clip(RawDetection& detection) const {
     const RawDetection whole = detection;
     detection.left = std::max(whole.left, static_cast<float>(left));
     detection.top = std::max(whole.top, static_cast<float>(top));
     detection.right = std::min(whole.right, static_cast<float>(left + width));
     detection.bottom = std::min(whole.bottom, static_cast<float>(top + height));
-    if (!(detection.right > detection.left && detection.bottom > detection.top)) return false;
+    constexpr float kLeast_px = 1e-3f;
+    if (!(detection.right - detection.left > kLeast_px && detection.bottom - detection.top > kLeast_px)) return false;
     if (whole.mask) detection.mask = crop_mask(whole, detection);
     return true;
   }

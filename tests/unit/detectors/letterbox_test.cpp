@@ -89,6 +89,16 @@ TEST(Letterbox, WhatLiesInTheBarsIsDropped) {
   EXPECT_FALSE(letterbox.clip(outside));
 }
 
+// Scaled to an image that is smaller than the input, a height of 1e-44 is 0.
+TEST(Letterbox, ABoxOfNoHeightIsDropped) {
+  const Letterbox letterbox({1, 1}, {32, 32}, ImageFit::stretch);
+  RawDetection flat{0, 0, 28, 1e-44f}, narrow{5, 0, 5.0005f, 28}, small{0, 0, 0.002f, 0.002f};
+  EXPECT_FALSE(letterbox.clip(flat));
+  EXPECT_FALSE(letterbox.clip(narrow));
+  ASSERT_TRUE(letterbox.clip(small));
+  EXPECT_GT(letterbox.to_image(small).width, 0.0f);
+}
+
 TEST(Letterbox, AMaskIsCutWithItsBox) {
   const Letterbox letterbox({100, 100}, {100, 100}, ImageFit::stretch);
   RawDetection detection{-40, 0, 40, 80};
