@@ -53,9 +53,13 @@ struct DepthView {
                                                 : metres(image.row<float>(v)[u]);
   }
 
+  /// Whether a pixel has a depth: not 0, and not NaN or infinite.
+  static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }
+  static bool is_depth(float value_m) noexcept { return std::isfinite(value_m) && value_m > 0.0f; }
+
   /// What the image holds, in metres.
   float metres(std::uint16_t raw) const noexcept { return static_cast<float>(raw / factor); }
-  static float metres(float value_m) noexcept { return std::isfinite(value_m) && value_m > 0.0f ? value_m : 0.0f; }
+  static float metres(float value_m) noexcept { return is_depth(value_m) ? value_m : 0.0f; }
 };
 
 /// One frame. All views must stay alive during `filter_frame` and may die after it.

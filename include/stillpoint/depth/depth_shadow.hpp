@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -69,9 +67,6 @@ class DepthShadow {
   static constexpr int kOccludersEdge_px = 2;
   static constexpr double kEnd_px = 1.0, kWidest = 1.25, kWidest_px = 3.0;
 
-  static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }
-  static bool is_depth(float raw_m) noexcept { return raw_m > 0.0f && raw_m < std::numeric_limits<float>::infinity(); }
-
   /// How many pixels the shadow of a baseline of one metre is wide; 0 where depth does not jump.
   template <class Depth>
   double px_per_metre(Depth left, Depth right) const noexcept {
@@ -87,7 +82,7 @@ class DepthShadow {
       const Depth* const row = depth_.image.row<Depth>(v);
       int last = -1;
       for (int u = 0; u < depth_.image.width; ++u) {
-        if (!is_depth(row[u])) continue;
+        if (!DepthView::is_depth(row[u])) continue;
         const double px = last >= 0 && may_jump(row[last], row[u]) ? px_per_metre(row[last], row[u]) : 0.0;
         if (px > kLeastPxPerMetre) {
           const auto bin = static_cast<std::size_t>((u - last - 1) / (kBin_m * px) + 0.5);
@@ -123,13 +118,13 @@ class DepthShadow {
   template <class Depth>
   double farther_m(int u, int v) const noexcept {
     const Depth* const row = depth_.image.row<Depth>(v);
-    if (is_depth(row[u])) return 0.0;
+    if (DepthView::is_depth(row[u])) return 0.0;
     const double baseline_m = std::max(baseline_m_[kFarOnLeft], baseline_m_[kFarOnRight]);
     const int reach_px = static_cast<int>(kWidest * baseline_m * focal_px_ / kNearest_m + kWidest_px);
     const int leftmost = std::max(u - reach_px, 0), rightmost = std::min(u + reach_px, depth_.image.width - 1);
     int left = u, right = u;
-    while (left >= leftmost && !is_depth(row[left])) --left;
-    while (right <= rightmost && !is_depth(row[right])) ++right;
+    while (left >= leftmost && !DepthView::is_depth(row[left])) --left;
+    while (right <= rightmost && !DepthView::is_depth(row[right])) ++right;
     if (left < leftmost || right > rightmost) return 0.0;
     const Side side = row[left] > row[right] ? kFarOnLeft : kFarOnRight;
     const double width_px = baseline_m_[side] * px_per_metre(row[left], row[right]);

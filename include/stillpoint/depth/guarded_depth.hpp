@@ -5,7 +5,6 @@
 // Depth that is trusted only where its neighbours agree.
 
 #include <cstdint>
-#include <limits>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -45,13 +44,13 @@ struct GuardedDepth {
   template <class Depth, class Noise>
   double of_surface(const DepthView& depth, int u, int v, const Noise& noise) const {
     const Depth centre = depth.image.row<Depth>(v)[u];
-    if (!is_depth(centre)) return 0.0;
+    if (!DepthView::is_depth(centre)) return 0.0;
     int neighbours = 0;
     Depth nearest = centre, farthest = centre;
     for (int j = -1; j <= 1; ++j) {
       const Depth* const row = depth.image.row<Depth>(v + j) + u;
       for (int i = -1; i <= 1; ++i) {
-        const bool counts = is_depth(row[i]);
+        const bool counts = DepthView::is_depth(row[i]);
         neighbours += counts;
         nearest = counts && row[i] < nearest ? row[i] : nearest;
         farthest = counts && row[i] > farthest ? row[i] : farthest;
@@ -64,9 +63,6 @@ struct GuardedDepth {
     const bool is_surface = difference_m <= jump_m || difference_m <= jump_m + jump_sigmas * noise.sigma(centre_m);
     return is_surface ? centre_m : 0.0;
   }
-
-  static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }
-  static bool is_depth(float raw_m) noexcept { return raw_m > 0.0f && raw_m < std::numeric_limits<float>::infinity(); }
 };
 
 }  // namespace stillpoint
