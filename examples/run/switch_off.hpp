@@ -4,7 +4,6 @@
 
 // A filter without some of the corrections of the paper's method.
 
-#include <limits>
 #include <type_traits>
 
 #include "corrections.hpp"
@@ -44,7 +43,7 @@ inline stillpoint::SupportMotion& support_motion(SwitchedMotion& motion) { retur
 /// corrections named.
 template <class Policies>
 void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filter) {
-  constexpr float kNever = std::numeric_limits<float>::infinity();
+  constexpr float kNever = 1e6f;
   detail::switch_stages(without, filter);
   stillpoint::SupportMotion& motion = detail::support_motion(filter.ego_motion);
   if (without("measured-noise")) motion.constraints.pixel_sigma = 0.1 / motion.options.inlier_sigmas;
@@ -53,7 +52,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
     filter.gate.gain = 0.0;
   }
   if (without("stationary-camera")) motion.stationary_camera.is_enabled = false;
-  if (without("past-hypothesis")) motion.past_preference = std::numeric_limits<double>::infinity();
+  if (without("past-hypothesis")) motion.past_preference = kNever;
   if (without("inertia")) motion.inertia.acceleration_m_s2 = 0.0;
   if (without("clusters")) {
     stillpoint::SurfaceClusters& clusters = filter.classifier;
@@ -74,7 +73,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   if (without("depth-guard")) {
     stillpoint::GuardedDepth& guard = filter.matcher.older.guard;
     guard.fewest_neighbours = 1;
-    guard.jump_m = std::numeric_limits<double>::infinity();
+    guard.jump_m = kNever;
     filter.matcher.older.surfaces.guard = guard;
   }
   if (without("memory")) {

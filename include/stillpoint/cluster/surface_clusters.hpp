@@ -268,6 +268,12 @@ void each_option(SurfaceClusters& stage, Visit& visit) {
   visit("features_per_cluster", stage.options.features_per_cluster, OptionRange{1, 1e6});
   visit("own_share", stage.options.own_share, OptionRange{0, 1});
   visit("dynamic_shift", stage.options.dynamic_shift, OptionRange{-100, 100});
+  if constexpr (sees_code_only<Visit>::value) {
+    visit("fewest_clusters", stage.fewest_clusters, OptionRange{1, 1e6});
+    visit("split_variance", stage.split_variance, OptionRange{0, 1e9});
+    visit("depth_extent_m", stage.depth_extent_m, OptionRange{1e-3, 1e3});
+    visit("depth_extent_sigmas", stage.depth_extent_sigmas, OptionRange{0, 1e3});
+  }
 }
 
 }  // namespace stillpoint

@@ -11,6 +11,8 @@
 //   visit.seed(name, value)                        any whole number
 //   visit.choice(name, value, words...)            an enumerator or index; words name its values from 0 on
 //
+// What is set in code alone, and stands in no file, is visited where `sees_code_only<Visit>::value`.
+//
 // A stage of your own takes part when its namespace has an `each_option` for it, in the header of the stage.
 
 #include <array>
@@ -32,6 +34,13 @@ struct OptionRange {
   /// Not for NaN.
   constexpr bool contains(double value) const noexcept { return value >= least && value <= most; }
 };
+
+/// True for a visitor that also sees members which are set in code alone, and so have a range but stand in no file: it
+/// has a member type `SeesCodeOnly`.
+template <class Visit, class = void>
+struct sees_code_only : std::false_type {};
+template <class Visit>
+struct sees_code_only<Visit, std::void_t<typename Visit::SeesCodeOnly>> : std::true_type {};
 
 /// True for a stage or group whose options have names.
 template <class Group, class Visit, class = void>
@@ -100,6 +109,8 @@ class LooksAtOptions {
 /// Finds the first option that is out of its range.
 class OptionCheck {
  public:
+  using SeesCodeOnly = void;
+
   OptionCheck() = default;
 
   /// As in "gate.false_positive_rate is 5, expected a number from 0.000001 to 0.5"; empty where all are in range.

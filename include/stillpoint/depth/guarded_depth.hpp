@@ -5,9 +5,11 @@
 // Depth that is trusted only where its neighbours agree.
 
 #include <cstdint>
+#include <type_traits>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 
@@ -64,5 +66,12 @@ struct GuardedDepth {
     return is_surface ? centre_m : 0.0;
   }
 };
+
+template <class Visit, std::enable_if_t<sees_code_only<Visit>::value, int> = 0>
+void each_option(GuardedDepth& lookup, Visit& visit) {
+  visit("fewest_neighbours", lookup.fewest_neighbours, OptionRange{1, 9});
+  visit("jump_m", lookup.jump_m, OptionRange{0, 1e6});
+  visit("jump_sigmas", lookup.jump_sigmas, OptionRange{0, 1e6});
+}
 
 }  // namespace stillpoint

@@ -81,6 +81,7 @@ class TailGate {
 template <class Visit>
 void each_option(TailGate& stage, Visit& visit) {
   visit("false_positive_rate", stage.options.false_positive_rate, OptionRange{1e-6, 0.5});
+  if constexpr (sees_code_only<Visit>::value) visit("gain", stage.gain, OptionRange{0, 10});
 }
 
 }  // namespace stillpoint

@@ -283,6 +283,7 @@ void each_option(PastReprojection& stage, Visit& visit) {
   visit("pixel_sigma", stage.options.pixel_sigma, OptionRange{0.01, 100});
   visit("longest_s", stage.options.longest_s, OptionRange{0, 3600});
   visit("occlusion_sigmas", stage.options.occlusion_sigmas, OptionRange{0, 100});
+  if constexpr (sees_code_only<Visit>::value) visit("guard", stage.guard);
   visit("surfaces", stage.surfaces);
 }
 

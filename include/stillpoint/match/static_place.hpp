@@ -118,6 +118,7 @@ int scaled_px(int length_px, const Camera& camera) noexcept {
 template <class Visit>
 void each_option(PlaceTest& test, Visit& visit) {
   visit("occlusion_sigmas", test.occlusion_sigmas, OptionRange{0, 100});
+  if constexpr (sees_code_only<Visit>::value) visit("guard", test.guard);
 }
 
 }  // namespace stillpoint

@@ -82,6 +82,7 @@ struct SurfaceSearch {
 template <class Visit>
 void each_option(SurfaceSearch& search, Visit& visit) {
   visit("step_px", search.step_px, OptionRange{8, 512});
+  if constexpr (sees_code_only<Visit>::value) visit("guard", search.guard);
 }
 
 }  // namespace stillpoint

@@ -221,6 +221,7 @@ void each_option(EvidenceMemory& stage, Visit& visit) {
   visit("log_odds_decay_s", stage.options.log_odds_decay_s, OptionRange{0, 3600});
   visit("suspicion_rise_s", stage.options.suspicion_rise_s, OptionRange{0, 3600});
   visit("suspicion_decay_s", stage.options.suspicion_decay_s, OptionRange{0, 3600});
+  if constexpr (sees_code_only<Visit>::value) visit("caution", stage.caution, OptionRange{0, 10});
 }
 
 }  // namespace stillpoint

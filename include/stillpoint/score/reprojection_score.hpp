@@ -143,6 +143,7 @@ void each_option(ReprojectionScore& stage, Visit& visit) {
   visit("most_from_place", stage.options.most_from_place, OptionRange{0, 100});
   visit("most_from_look", stage.options.most_from_look, OptionRange{0, 100});
   visit("most_from_depth", stage.options.most_from_depth, OptionRange{0, 100});
+  if constexpr (sees_code_only<Visit>::value) visit("expected_patch", stage.expected_patch, OptionRange{-100, 100});
 }
 
 }  // namespace stillpoint

@@ -32,6 +32,8 @@ enum class Place { below, least, most, beyond };
 
 /// Sets one option, the n-th of those with a range, to an end of its range or beyond it.
 struct SetOne {
+  using SeesCodeOnly = void;
+
   std::size_t wanted;
   Place place;
   std::size_t count = 0;

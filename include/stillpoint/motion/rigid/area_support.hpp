@@ -16,9 +16,9 @@ namespace stillpoint {
 
 /// One flag per feature. All are set unless `host_supports`: corners of the matcher are spread over the image
 /// already. Otherwise one match per cell that is not near the border: the first with depths, or the first at all.
-/// @param cell_px  side of a cell, pixels; 0 sets all flags
+/// @param cell_px  side of a cell, pixels; below 1 all flags are set
 inline span<const std::uint8_t> area_support(const Matches& matches, float cell_px, Workspace& workspace) {
-  const bool is_spread = !matches.host_supports || !(cell_px > 0);
+  const bool is_spread = !matches.host_supports || !(cell_px >= 1);
   const span<std::uint8_t> speaks =
       workspace.take<std::uint8_t>(matches.size(), is_spread ? std::uint8_t{1} : std::uint8_t{0});
   if (is_spread) return speaks;

@@ -169,6 +169,10 @@ void each_option(SupportConstraints& constraints, Visit& visit) {
   visit("pixel_sigma", constraints.pixel_sigma, OptionRange{0.01, 100});
   visit("depth_sigmas", constraints.depth_sigmas, OptionRange{0.01, 100});
   visit("dynamic_trust", constraints.dynamic_trust, OptionRange{0, 1});
+  if constexpr (sees_code_only<Visit>::value) {
+    visit("surface_weight", constraints.surface_weight, OptionRange{0, 100});
+    visit("host_cell_px", constraints.host_cell_px, OptionRange{0, 1e4});
+  }
 }
 
 }  // namespace stillpoint

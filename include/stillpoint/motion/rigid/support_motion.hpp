@@ -292,6 +292,7 @@ void each_option(SupportMotion& stage, Visit& visit) {
   visit("inlier_sigmas", stage.options.inlier_sigmas, OptionRange{0.1, 100});
   visit("max_trials", stage.options.max_trials, OptionRange{0, 1e4});
   visit.seed("seed", stage.options.seed);
+  if constexpr (sees_code_only<Visit>::value) visit("past_preference", stage.past_preference, OptionRange{0, 1e6});
   visit("constraints", stage.constraints);
   visit("inertia", stage.inertia);
 }
