@@ -89,4 +89,6 @@ struct StationaryCamera {
   }
 };
 
+using StandingCamera [[deprecated("StationaryCamera")]] = StationaryCamera;  ///< its name in 0.2; gone in 0.4
+
 }  // namespace stillpoint
