@@ -38,7 +38,6 @@ std::string listed(const Topics& topics) {
 template <class Message>
 std::set<std::string> topics_of(const rosbag::Bag& bag) {
   std::set<std::string> names;
-  const rosbag::View view(bag);
   for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections())
     if (connection->datatype == ros::message_traits::DataType<Message>::value()) names.insert(connection->topic);
   return names;
