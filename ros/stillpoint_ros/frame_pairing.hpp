@@ -74,6 +74,10 @@ class FramePairing {
                                         : difference_s(*depth, images_.queue.back());
   }
 
+  /// The stamp of the newest image where it was left out, because it is not later than the last frame's.
+  std::optional<double> image_not_later_s() const noexcept { return images_.not_later_s; }
+  std::optional<double> depth_not_later_s() const noexcept { return depths_.not_later_s; }
+
   /// The newest image whose size no camera_info has; empty where there is none.
   const RawImage* image_without_camera() const {
     if (images_.queue.empty() || camera_for(images_.queue.back()) != nullptr) return nullptr;
@@ -90,11 +94,16 @@ class FramePairing {
     Queue queue;
     double newest_s = -std::numeric_limits<double>::infinity();
     double paired_s = -std::numeric_limits<double>::infinity();
+    std::optional<double> not_later_s;  ///< stamp of the newest message, if that was left out
 
     void add(RawImage message, std::size_t longest_queue) {
       if (message.stamp_s < newest_s - kJumpBack_s) *this = Stream();
       newest_s = std::max(newest_s, message.stamp_s);
-      if (message.stamp_s <= paired_s) return;
+      if (message.stamp_s <= paired_s) {
+        not_later_s = message.stamp_s;
+        return;
+      }
+      not_later_s.reset();
       const auto after =
           std::upper_bound(queue.begin(), queue.end(), message.stamp_s,
                            [](double stamp_s, const RawImage& other) { return stamp_s < other.stamp_s; });

@@ -63,10 +63,19 @@ class InputWatch {
     if (const RawImage* const image = pairing.image_without_camera())
       return "the image has " + std::to_string(image->width) + "x" + std::to_string(image->height) +
              " pixels, expected the size that camera_info on " + topics_[2] + " says";
+    if (const auto stamp_s = pairing.image_not_later_s()) return not_growing(Input::image, *stamp_s);
+    if (const auto stamp_s = pairing.depth_not_later_s()) return not_growing(Input::depth, *stamp_s);
     const double apart_s = pairing.nearest_difference_s();
     if (!std::isfinite(apart_s)) return "image and depth do not come at the same time";
     return "image and depth are " + seconds(apart_s) + " s apart, expected at most sync_tolerance_s, " +
            seconds(pairing.options.tolerance_s) + " s";
+  }
+
+  std::string not_growing(Input input, double stamp_s) const {
+    const auto i = static_cast<std::size_t>(input);
+    return std::string("stamps of ") + kNames[i] + " on " + topics_[i] + " do not grow: the last is " +
+           seconds(stamp_s) +
+           " s, not later than the last frame's, expected the time of each image in its header.stamp";
   }
 
   std::array<std::string, kInputCount> topics_;

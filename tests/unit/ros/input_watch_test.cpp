@@ -73,6 +73,29 @@ TEST_F(InputWatchTest, SaysThatTheCameraIsOfAnotherSize) {
             (Sentences{"the image has 640x480 pixels, expected the size that camera_info on /info says"}));
 }
 
+TEST_F(InputWatchTest, SaysThatStampsDoNotGrow) {
+  CameraInfo info;
+  info.width = 640;
+  info.height = 480;
+  pairing.add_camera_info(info);
+  for (int i = 0; i < 4; ++i) {
+    pairing.add_image(image_at(0));
+    pairing.add_depth(image_at(0));
+    while (pairing.take()) watch.paired(5);
+  }
+  see_all(7);
+  EXPECT_EQ(watch.missing(7, pairing),
+            (Sentences{"stamps of image on /rgb do not grow: the last is 0.000 s, not later than the last frame's, "
+                       "expected the time of each image in its header.stamp"}));
+  pairing.add_image(image_at(0.1));
+  EXPECT_EQ(watch.missing(7, pairing),
+            (Sentences{"stamps of depth on /depth do not grow: the last is 0.000 s, not later than the last frame's, "
+                       "expected the time of each image in its header.stamp"}));
+  pairing.add_depth(image_at(0.15));
+  EXPECT_EQ(watch.missing(7, pairing),
+            (Sentences{"image and depth are 0.050 s apart, expected at most sync_tolerance_s, 0.010 s"}));
+}
+
 TEST_F(InputWatchTest, SaysForASecondWhyAMessageWasRefused) {
   see_all(5);
   watch.paired(5);
