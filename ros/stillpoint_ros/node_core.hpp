@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -17,7 +18,6 @@
 #include <utility>
 #include <vector>
 
-#include "stillpoint/core/error.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/io/number_format.hpp"
@@ -155,7 +155,7 @@ class NodeCore {
       const FrameAnswer& answer = session_.process(job.frame);
       publish_(job.frame, answer);
       count(answer, now_s() - job.arrived_s);
-    } catch (const stillpoint::Error& error) {
+    } catch (const std::exception& error) {  // OpenCV's, too: nobody else catches in this thread
       const std::lock_guard<std::mutex> lock(mutex_);
       watch_.rejected(now_s(), error.what());
     }

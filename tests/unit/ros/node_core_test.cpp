@@ -215,6 +215,15 @@ class NodeCoreTest : public testing::Test {
       if (name == key) return text;
     return "none";
   }
+  /// The first report that misses something.
+  Report first_refusal() {
+    Report report;
+    for (int attempt = 0; attempt < 1000 && report.missing.empty(); ++attempt) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      report = core.report();
+    }
+    return report;
+  }
   /// What reports say of frames until so many were counted, the last of them just after it was published.
   struct Counts {
     int frames = 0, judged = 0;
@@ -279,13 +288,26 @@ TEST_F(NodeCoreTest, SaysWhyAMessageIsRefused) {
   Frame frame = frames()[0];
   frame.messages.image.encoding = "yuv422";
   send(frame);
-  Report report;
-  for (int attempt = 0; attempt < 1000 && report.missing.empty(); ++attempt) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    report = core.report();
-  }
+  const Report report = first_refusal();
   ASSERT_EQ(report.missing.size(), 1u);
   EXPECT_EQ(report.missing[0].substr(0, 26), "image: encoding is 'yuv422");
+}
+
+TEST_F(NodeCoreTest, SaysWhatOpenCvRefuses) {
+  start();
+  Frame row = frames()[0];  // an image pyramid of one row has a level without pixels
+  row.bgr = row.bgr.row(0).clone();
+  row.depth = row.depth.row(0).clone();
+  row.messages.image = row.raw(row.bgr, "bgr8", 1.0);
+  row.messages.depth = row.raw(row.depth, "16UC1", 1.0);
+  row.messages.camera.height = 1;
+  row.messages.camera.k[5] = 0;
+  send(row);
+  const Report report = first_refusal();
+  ASSERT_EQ(report.missing.size(), 1u);
+  EXPECT_NE(report.missing[0].find("OpenCV"), std::string::npos) << report.missing[0];
+  send(frames()[1]);
+  EXPECT_TRUE(wait_for(1)) << "the next frame is judged";
 }
 
 TEST_F(NodeCoreTest, DetectionsReachThePrior) {
