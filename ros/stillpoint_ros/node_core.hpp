@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -63,6 +64,7 @@ class NodeCore {
     each_option(session_.filter, reader);
     pairing_.options.longest_queue =
         std::max<std::size_t>(pairing_.options.longest_queue, static_cast<std::size_t>(longest_queue));
+    most_detections_ = std::max(kFewestWaiting, static_cast<std::size_t>(longest_queue));
     worker_ =
         std::make_unique<LatestWorker<Job>>([this](Job& job) { work(job); }, static_cast<std::size_t>(longest_queue));
     return names;
@@ -77,11 +79,11 @@ class NodeCore {
   void add_camera_info(CameraInfo info) {
     add(Input::camera_info, [&] { pairing_.add_camera_info(std::move(info)); });
   }
-  /// What a detector saw in the image of that time; it may be late.
+  /// What a detector saw in the image of that time. It may be late; early, it waits for that image.
   void add_detections(double stamp_s, std::vector<stillpoint::Detection> detections) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    detections_.push_back({stamp_s, std::move(detections)});
-    if (detections_.size() > kMostDetections) detections_.erase(detections_.begin());
+    detections_.push_back({stamp_s, recording_, std::move(detections)});
+    if (detections_.size() > most_detections_) detections_.erase(detections_.begin());
   }
 
   /// What happened since the last call, once a second.
@@ -110,21 +112,24 @@ class NodeCore {
                      {"latency, longest [ms]", stillpoint::format_fixed(1000 * longest_latency_s_, 1)},
                      {"filter, last [ms]", stillpoint::format_fixed(last_filter_ms_, 1)},
                      {"frames left out, all", std::to_string(worker_ ? worker_->left_out() : 0)},
-                     {"images without depth, all", std::to_string(pairing_.unpaired_images())}};
+                     {"images without depth, all", std::to_string(pairing_.unpaired_images())},
+                     {"detections waiting", std::to_string(detections_.size())}};
     frames_ = judged_ = features_ = kept_ = 0;
     longest_latency_s_ = 0.0;
     return report;
   }
 
  private:
-  static constexpr std::size_t kMostDetections = 16;  // that wait for a frame
+  static constexpr std::size_t kFewestWaiting = 16;  // detections that may wait for a frame, at least
 
   struct Job {
     PairedFrame frame;
     double arrived_s = 0.0;
+    std::size_t recording = 0;
   };
   struct StampedDetections {
     double stamp_s;
+    std::size_t recording;
     std::vector<stillpoint::Detection> detections;
   };
 
@@ -139,19 +144,31 @@ class NodeCore {
     add_message();
     while (std::optional<PairedFrame> frame = pairing_.take()) {
       watch_.paired(now_s());
-      worker_->submit({std::move(*frame), now_s()});
+      if (frame->image.stamp_s < newest_frame_s_) ++recording_;
+      newest_frame_s_ = frame->image.stamp_s;
+      worker_->submit({std::move(*frame), now_s(), recording_});
     }
+  }
+
+  /// Those of this frame and of earlier ones. Those of later frames still wait, those of an earlier recording do not.
+  std::vector<StampedDetections> take_detections(const Job& job) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const double latest_s = job.frame.image.stamp_s + pairing_.options.tolerance_s;
+    std::vector<StampedDetections> due, later;
+    for (StampedDetections& seen : detections_) {
+      if (seen.recording < job.recording) continue;
+      const bool is_due = seen.recording == job.recording && seen.stamp_s <= latest_s;
+      (is_due ? due : later).push_back(std::move(seen));
+    }
+    detections_.swap(later);
+    return due;
   }
 
   /// In the worker's thread.
   void work(Job& job) {
-    std::vector<StampedDetections> detections;
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      detections.swap(detections_);
-    }
-    for (const StampedDetections& seen : detections) session_.filter.prior.detected(seen.stamp_s, seen.detections);
     try {
+      for (const StampedDetections& seen : take_detections(job))
+        session_.filter.prior.detected(seen.stamp_s, seen.detections);
       const FrameAnswer& answer = session_.process(job.frame);
       publish_(job.frame, answer);
       count(answer, now_s() - job.arrived_s);
@@ -179,6 +196,9 @@ class NodeCore {
   FramePairing pairing_;
   InputWatch watch_;
   std::vector<StampedDetections> detections_;
+  std::size_t most_detections_ = kFewestWaiting;
+  std::size_t recording_ = 0;  // grows when stamps of frames jump back
+  double newest_frame_s_ = -std::numeric_limits<double>::infinity();
   std::size_t frames_ = 0, judged_ = 0, features_ = 0, kept_ = 0;  // since the last report
   std::size_t objects_ = 0, movers_ = 0;
   double longest_latency_s_ = 0.0, last_filter_ms_ = 0.0;

@@ -17,6 +17,7 @@
 #include <string>
 #include <thread>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/synthetic/renderer.hpp"
@@ -321,6 +322,71 @@ TEST_F(NodeCoreTest, DetectionsReachThePrior) {
     ASSERT_TRUE(wait_for(i + 1));
   }
   EXPECT_EQ(objects, (std::vector<std::size_t>{0, 1, 1}));
+}
+
+TEST_F(NodeCoreTest, DetectionsWaitForTheirFrameInALongQueue) {
+  start({{"longest_queue", 10}});
+  stillpoint::Detection person;
+  person.box = {100, 60, 80, 120};
+  person.mobility = stillpoint::Mobility::dynamic;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);  // the worker waits where it publishes
+    for (std::size_t i = 0; i < 4; ++i) send(frames()[i]);
+    core.add_detections(frames()[3].messages.image.stamp_s, {person});
+  }
+  ASSERT_TRUE(wait_for(4));
+  EXPECT_EQ(objects, (std::vector<std::size_t>{0, 0, 0, 1}));
+}
+
+TEST_F(NodeCoreTest, AsManyDetectionsWaitAsFrames) {
+  start({{"longest_queue", 20}});
+  for (int i = 0; i < 30; ++i) core.add_detections(100 + i, {});
+  EXPECT_EQ(value(core.report(), "detections waiting"), "20");
+  NodeCore usual({"", "", ""}, [](const PairedFrame&, const FrameAnswer&) {});
+  Given given;
+  usual.start(given);
+  for (int i = 0; i < 30; ++i) usual.add_detections(100 + i, {});
+  EXPECT_EQ(value(usual.report(), "detections waiting"), "16");
+}
+
+TEST_F(NodeCoreTest, DetectionsOfARecordingThatBeganAnewAreDropped) {
+  start({{"longest_queue", 10}});
+  const auto send_at = [&](std::size_t i, double stamp_s) {
+    Frame frame = frames()[i];
+    frame.messages.image.stamp_s = frame.messages.depth.stamp_s = stamp_s;
+    send(frame);
+  };
+  send_at(0, 10.0);
+  send_at(1, 10.1);
+  core.add_detections(10.3, {});
+  ASSERT_TRUE(wait_for(2));
+  EXPECT_EQ(value(core.report(), "detections waiting"), "1");
+  send_at(0, 5.0);
+  core.add_detections(5.2, {});
+  ASSERT_TRUE(wait_for(3));
+  EXPECT_EQ(value(core.report(), "detections waiting"), "1") << "that of the new recording";
+  send_at(1, 5.1);
+  send_at(2, 5.2);
+  ASSERT_TRUE(wait_for(5));
+  EXPECT_EQ(value(core.report(), "detections waiting"), "0");
+}
+
+TEST_F(NodeCoreTest, DetectionsOfTheNewRecordingWaitForTheOldFrames) {
+  start({{"longest_queue", 10}});
+  stillpoint::Detection person;
+  person.box = {100, 60, 80, 120};
+  person.mobility = stillpoint::Mobility::dynamic;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    for (const auto& [i, stamp_s] : {std::pair<std::size_t, double>{0, 10.0}, {1, 10.1}, {0, 5.0}, {1, 5.1}}) {
+      Frame frame = frames()[i];
+      frame.messages.image.stamp_s = frame.messages.depth.stamp_s = stamp_s;
+      send(frame);
+    }
+    core.add_detections(5.1, {person});
+  }
+  ASSERT_TRUE(wait_for(4));
+  EXPECT_EQ(objects, (std::vector<std::size_t>{0, 0, 0, 1}));
 }
 
 TEST_F(NodeCoreTest, ParametersAreTheOptions) {
