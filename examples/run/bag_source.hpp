@@ -34,6 +34,7 @@ class BagSource : public FrameSource {
       : file_(options.bag),
         bag_(options.bag, {options.image_topic, options.depth_topic, options.camera_info_topic},
              options.camera.empty()),
+        is_rectified_(options.rectified),
         first_(first_frame()),
         camera_(camera_of(options)) {}
 
@@ -44,7 +45,9 @@ class BagSource : public FrameSource {
   std::vector<std::string> assumptions() const override {
     const stillpoint_ros::BagTopics& topics = bag_.topics();
     return {"Of the bag, images are those of " + topics.image + ", depth is that of " + topics.depth +
-            (topics.camera_info.empty() ? "." : ", the camera that of " + topics.camera_info + ".")};
+            (topics.camera_info.empty()
+                 ? "."
+                 : ", the camera that of " + topics.camera_info + (is_rectified_ ? ", rectified." : "."))};
   }
 
   std::optional<SourceFrame> load(std::size_t index) override {
@@ -66,7 +69,9 @@ class BagSource : public FrameSource {
   stillpoint::RgbdCamera camera_of(const Options& options) const {
     constexpr double kMillimetres = 1000.0;  // what 16UC1 is in ROS (REP 118)
     if (options.camera.empty())
-      return in_file([&] { return stillpoint::RgbdCamera{stillpoint_ros::camera_of(first_->camera), kMillimetres}; });
+      return in_file([&] {
+        return stillpoint::RgbdCamera{stillpoint_ros::camera_of(first_->camera, is_rectified_), kMillimetres};
+      });
     return stillpoint::read_camera(options.camera);
   }
 
@@ -99,6 +104,7 @@ class BagSource : public FrameSource {
 
   std::filesystem::path file_;
   stillpoint_ros::RgbdBag bag_;
+  bool is_rectified_;
   std::optional<stillpoint_ros::PairedFrame> first_;
   stillpoint::RgbdCamera camera_;
   std::size_t next_ = 0;

@@ -25,6 +25,7 @@ struct InputOptions {
   std::filesystem::path right;  ///< the right images of a rectified pair whose left ones are `images`
   std::filesystem::path bag;    ///< of ROS 1
   std::string image_topic, depth_topic, camera_info_topic;  ///< of the bag; empty: the only one that fits
+  bool rectified = false;                                   ///< the bag's images are: P of camera_info
   std::string video;                                        ///< a file, or the number of a camera
   std::filesystem::path camera;                             ///< empty: the sequence's own
   double frame_rate_hz = 0.0;                               ///< 0: the frames tell
@@ -64,6 +65,7 @@ inline void add_input_options(CLI::App& app, InputOptions& options) {
   add_path("--image-topic", "TOPIC", options.image_topic, "of --bag, if it has more than one");
   add_path("--depth-topic", "TOPIC", options.depth_topic, "of --bag, if it has more than one");
   add_path("--camera-info-topic", "TOPIC", options.camera_info_topic, "of --bag, if not the one beside the image's");
+  app.add_flag("--rectified", options.rectified, "the images of --bag are rectified: the camera is P of camera_info");
   add_path("--images", "FOLDER", options.images, "a folder of images, in the order of their names");
   add_path("--right", "FOLDER", options.right,
            "the right images of a rectified stereo pair, named as the left ones in --images");
@@ -93,11 +95,12 @@ inline void require_one_input(const CLI::App& app, const InputOptions& options) 
     throw stillpoint::Error(
         "found no sequence, expected --demo or --tum FOLDER, --euroc FOLDER, --bag FILE, --images FOLDER or --video "
         "FILE|N");
-  for (const char* topic : {"--image-topic", "--depth-topic", "--camera-info-topic"})
-    if (given(topic) && !given("--bag"))
-      throw stillpoint::Error(std::string(topic) + ": found without --bag, expected --bag with a file");
-  if (given("--camera-info-topic") && given("--camera"))
-    throw stillpoint::Error("--camera-info-topic: found with --camera, expected one of them");
+  for (const char* option : {"--image-topic", "--depth-topic", "--camera-info-topic", "--rectified"})
+    if (given(option) && !given("--bag"))
+      throw stillpoint::Error(std::string(option) + ": found without --bag, expected --bag with a file");
+  for (const char* option : {"--camera-info-topic", "--rectified"})
+    if (given(option) && given("--camera"))
+      throw stillpoint::Error(std::string(option) + ": found with --camera, expected one of them");
   if (given("--camera") && (options.demo || !options.euroc.empty()))
     throw stillpoint::Error("--camera: found with " + std::string(found) +
                             ", whose camera is known; expected it with --tum, --bag, --images or --video");

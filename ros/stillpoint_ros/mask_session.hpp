@@ -25,12 +25,13 @@
 
 namespace stillpoint_ros {
 
-/// How masks are made of verdicts, and whether movers are followed.
+/// What comes, how masks are made of verdicts, and whether movers are followed.
 struct MaskOptions {
   int features = 1000;                    ///< ORB keypoints per frame, which the filter judges
   int margin_px = 8;                      ///< more is dropped around what moves
   double depth_units_per_metre = 1000.0;  ///< of 16-bit depth; ROS (REP 118) says millimetres
   bool follow_movers = false;             ///< answers have movers
+  bool rectified = false;                 ///< the images are: the camera is P of camera_info, not K and D
 };
 
 template <class Visit>
@@ -40,6 +41,7 @@ void each_option(MaskOptions& options, Visit& visit) {
   visit("depth_units_per_metre", options.depth_units_per_metre,
         stillpoint::OptionRange{stillpoint::DepthView::kLeastFactor, stillpoint::DepthView::kMostFactor});
   visit("follow_movers", options.follow_movers);
+  visit("rectified", options.rectified);
 }
 
 /// What is said of one frame. The images belong to the session and hold until its next frame.
@@ -102,7 +104,7 @@ class MaskSession {
 
   void use_camera(const CameraInfo& info) {
     if (camera_ && is_same_camera(*camera_, info)) return;
-    filter.camera = camera_of(info);
+    filter.camera = camera_of(info, options.rectified);
     filter.reset();
     camera_ = info;
   }

@@ -36,8 +36,9 @@ RawImage raw_image(const Image& message, double stamp_s, std::shared_ptr<const v
 }
 
 /// A sensor_msgs CameraInfo; ROS 1 and ROS 2 write its matrices in capitals and in small letters.
-template <class Info, class Matrix, class Coefficients>
-CameraInfo camera_info(const Info& message, double stamp_s, const Matrix& k, const Coefficients& d) {
+template <class Info, class Matrix, class Coefficients, class Projection>
+CameraInfo camera_info(const Info& message, double stamp_s, const Matrix& k, const Coefficients& d,
+                       const Projection& p) {
   CameraInfo info;
   info.stamp_s = stamp_s;
   info.width = static_cast<int>(message.width);
@@ -45,6 +46,7 @@ CameraInfo camera_info(const Info& message, double stamp_s, const Matrix& k, con
   std::copy(k.begin(), k.end(), info.k.begin());
   info.distortion_model = message.distortion_model;
   info.d.assign(d.begin(), d.end());
+  std::copy(p.begin(), p.end(), info.p.begin());
   return info;
 }
 

@@ -21,7 +21,7 @@ inline stillpoint_ros::RawImage raw(const sensor_msgs::Image::ConstPtr& message)
 }
 
 inline stillpoint_ros::CameraInfo raw(const sensor_msgs::CameraInfo& message) {
-  return stillpoint_ros::camera_info(message, message.header.stamp.toSec(), message.K, message.D);
+  return stillpoint_ros::camera_info(message, message.header.stamp.toSec(), message.K, message.D, message.P);
 }
 
 inline sensor_msgs::Image::Ptr message(const stillpoint::ImageView& image, const std_msgs::Header& header,

@@ -35,6 +35,7 @@ struct Contents {
   std::vector<double> distortion = {0, 0, 0, 0, 0};
   double depth_late_s = 0.0;  ///< by its stamp
   bool has_depth = true, has_camera_info = true, has_second_image = false;
+  bool has_projection = false;  ///< P is the camera's matrix, and K is another's
   int depthless_frame = -1;
 };
 
@@ -88,6 +89,10 @@ void write_bag(const fs::path& file, const Contents& contents = {}) {
     info.K = {camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1};
     info.distortion_model = contents.distortion_model;
     info.D = contents.distortion;
+    if (contents.has_projection) {
+      info.P = {camera.fx(), 0, camera.cx(), 0, 0, camera.fy(), camera.cy(), 0, 0, 0, 1, 0};
+      info.K[0] *= 1.5;
+    }
     write(bag, "/camera/rgb/camera_info", info);
     info.width = 1;  // of another camera
     write(bag, "/camera/depth/camera_info", info);
@@ -107,6 +112,11 @@ class Bags : public testing::Test {
   void expect_named_error(const std::string& more, const std::vector<std::string>& texts) const {
     expect_error("--quiet --out " + quoted(out) + " --bag " + quoted(bag) + ' ' + more, texts);
     EXPECT_EQ(files_in(out), std::vector<std::string>());
+  }
+  /// After a run, whose files go.
+  void expect_named_fresh_error(const std::string& more, const std::vector<std::string>& texts) const {
+    fs::remove_all(out);
+    expect_named_error(more, texts);
   }
   nlohmann::json report() const { return nlohmann::json::parse(system_test::read_text(out / "report.json")); }
   std::string features() const { return system_test::read_text(out / "features.csv"); }
@@ -143,6 +153,25 @@ TEST_F(Bags, TakeTheCameraOfCameraInfoAndDepthInMetres) {
   contents.encoding = "mono8";
   write_bag(bag, contents);
   expect_run();
+}
+
+TEST_F(Bags, OfRectifiedImagesTakeTheCameraOfP) {
+  Contents contents;
+  write_bag(bag, contents);
+  expect_run();
+  const std::string expected = features();
+  expect_named_fresh_error("--rectified", {"small.bag: camera_info: fx of P is 0, expected the projection matrix P"});
+  contents.has_projection = true;
+  contents.distortion_model = "rational_polynomial";
+  contents.distortion = {0.1, 0, 0, 0, 0, 0.2, 0, 0};
+  write_bag(bag, contents);
+  expect_named_fresh_error("", {"small.bag: camera_info: distortion_model is rational_polynomial with coefficient 5",
+                                "stillpoint_run: --rectified"});
+  const auto outcome = run("--rectified");
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("the camera that of /camera/rgb/camera_info, rectified."), std::string::npos)
+      << outcome.out;
+  EXPECT_TRUE(features() == expected);
 }
 
 TEST_F(Bags, AskWhichTopicWhereMoreThanOneFits) {
@@ -197,6 +226,8 @@ TEST_F(Bags, BrokenFilesAreNamed) {
 
 TEST_F(Bags, TopicsNeedABag) {
   expect_error("--demo --depth-topic /depth", {"--depth-topic: found without --bag, expected --bag with a file"});
+  expect_error("--demo --rectified", {"--rectified: found without --bag, expected --bag with a file"});
+  expect_error("--bag a.bag --camera c.yaml --rectified", {"--rectified: found with --camera, expected one of them"});
   expect_error("--bag a.bag --camera c.yaml --camera-info-topic /c",
                {"--camera-info-topic: found with --camera, expected one of them"});
 }

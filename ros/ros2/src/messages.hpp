@@ -23,7 +23,7 @@ inline stillpoint_ros::RawImage raw(const sensor_msgs::msg::Image::ConstSharedPt
 }
 
 inline stillpoint_ros::CameraInfo raw(const sensor_msgs::msg::CameraInfo& message) {
-  return stillpoint_ros::camera_info(message, seconds(message.header.stamp), message.k, message.d);
+  return stillpoint_ros::camera_info(message, seconds(message.header.stamp), message.k, message.d, message.p);
 }
 
 inline std::unique_ptr<sensor_msgs::msg::Image> message(const stillpoint::ImageView& image,

@@ -8,7 +8,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "unit/error_of.hpp"
 
@@ -51,15 +54,40 @@ TEST(CameraInfo, LensesHaveTheirCoefficientsInRosOrder) {
   EXPECT_EQ(fisheye.k4, 4);
 }
 
+TEST(CameraInfo, OfARectifiedImageItIsPWithoutALens) {
+  CameraInfo both = info("rational_polynomial", {.1, 0, 0, 0, 0, .2, 0, 0});
+  both.p = {501, 0, 311, -40, 0, 502, 231, 0, 0, 0, 1, 0};  // with Tx, as of a right camera
+  const stillpoint::Camera camera = camera_of(both, true);
+  EXPECT_EQ(camera.fx(), 501);
+  EXPECT_EQ(camera.fy(), 502);
+  EXPECT_EQ(camera.cx(), 311);
+  EXPECT_EQ(camera.cy(), 231);
+  EXPECT_EQ(camera.width(), 640);
+  EXPECT_EQ(camera.height(), 480);
+  EXPECT_TRUE(std::holds_alternative<stillpoint::NoDistortion>(camera.distortion().model));
+  for (const double fx : {0.0, -1.0}) {
+    both.p[0] = fx;
+    EXPECT_EQ(error_of([&] { camera_of(both, true); }),
+              "camera_info: fx of P is " + std::string(fx == 0 ? "0" : "-1") +
+                  ", expected the projection matrix P of a calibrated camera, which the parameter rectified uses");
+  }
+  both.p[0] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of([&] { camera_of(both, true); }), "no error");
+  both.p = {501, 0, 311, 0, 0, 0, 231, 0, 0, 0, 1, 0};
+  EXPECT_NE(error_of([&] { camera_of(both, true); }), "no error") << "fy is 0";
+}
+
 TEST(CameraInfo, WhatHasNoModelIsRefused) {
-  EXPECT_EQ(error_of([] {
-              camera_of(info("rational_polynomial", {.1, 0, 0, 0, 0, .2, 0, 0}));
-            }),
-            "camera_info: distortion_model is rational_polynomial with coefficient 5 not 0, expected at most five "
-            "(image_proc rectifies the images of such a lens)");
-  EXPECT_EQ(error_of([] { camera_of(info("double_sphere", {.1})); }),
-            "camera_info: distortion_model is 'double_sphere', expected plumb_bob, equidistant, or rectified images "
-            "with coefficients of 0");
+  EXPECT_EQ(
+      error_of([] {
+        camera_of(info("rational_polynomial", {.1, 0, 0, 0, 0, .2, 0, 0}));
+      }),
+      "camera_info: distortion_model is rational_polynomial with coefficient 5 not 0, expected at most five; "
+      "rectify images of another lens with image_proc and set the parameter rectified (stillpoint_run: --rectified)");
+  EXPECT_EQ(
+      error_of([] { camera_of(info("double_sphere", {.1})); }),
+      "camera_info: distortion_model is 'double_sphere', expected plumb_bob or equidistant; "
+      "rectify images of another lens with image_proc and set the parameter rectified (stillpoint_run: --rectified)");
   CameraInfo uncalibrated = info();
   uncalibrated.k = {};
   EXPECT_EQ(error_of([&] { camera_of(uncalibrated); }),
@@ -73,8 +101,9 @@ TEST(CameraInfo, IsTheSameCameraWhateverTheTime) {
   CameraInfo later = info();
   later.stamp_s = 2;
   EXPECT_TRUE(is_same_camera(info(), later));
-  for (const auto change : {+[](CameraInfo& i) { i.k[4] = 1; }, +[](CameraInfo& i) { i.width = 1; },
-                            +[](CameraInfo& i) { i.d = {1}; }, +[](CameraInfo& i) { i.distortion_model = "x"; }}) {
+  for (const auto change :
+       {+[](CameraInfo& i) { i.k[4] = 1; }, +[](CameraInfo& i) { i.width = 1; }, +[](CameraInfo& i) { i.d = {1}; },
+        +[](CameraInfo& i) { i.p[5] = 1; }, +[](CameraInfo& i) { i.distortion_model = "x"; }}) {
     CameraInfo other = info();
     change(other);
     EXPECT_FALSE(is_same_camera(info(), other));

@@ -182,6 +182,23 @@ TEST(MaskSession, AnotherCameraBeginsAnew) {
   EXPECT_EQ(session.filter.camera.fx(), other.camera.k[0]);
 }
 
+TEST(MaskSession, RectifiedImagesHaveTheCameraOfP) {
+  MaskSession session;
+  session.options.depth_units_per_metre = kDepthUnit;
+  session.options.rectified = true;
+  PairedFrame frame = frames()[0].messages;
+  const auto k = frame.camera.k;
+  frame.camera.p = {k[0], 0, k[2], 0, 0, k[4], k[5], 0, 0, 0, 1, 0};
+  frame.camera.k[0] += 50;
+  frame.camera.distortion_model = "rational_polynomial";
+  frame.camera.d = {.1, 0, 0, 0, 0, .2, 0, 0};
+  EXPECT_EQ(session.process(frame).status, stillpoint::Status::first_frame);
+  EXPECT_EQ(session.filter.camera.fx(), k[0]);
+  frame.image.stamp_s += 0.03;
+  frame.camera.p[0] += 1;
+  EXPECT_EQ(session.process(frame).status, stillpoint::Status::first_frame) << "another camera";
+}
+
 struct Given {
   std::map<std::string, double> numbers;
 
@@ -392,8 +409,9 @@ TEST_F(NodeCoreTest, DetectionsOfTheNewRecordingWaitForTheOldFrames) {
 TEST_F(NodeCoreTest, ParametersAreTheOptions) {
   Given given;
   const std::vector<std::string> names = core.start(given);
-  for (const char* name : {"features", "margin_px", "depth_units_per_metre", "sync_tolerance_s", "longest_queue",
-                           "gate.false_positive_rate", "keep_floor.fewest_features", "depth_noise.model"})
+  for (const char* name :
+       {"features", "margin_px", "depth_units_per_metre", "rectified", "sync_tolerance_s", "longest_queue",
+        "gate.false_positive_rate", "keep_floor.fewest_features", "depth_noise.model"})
     EXPECT_EQ(unknown_parameter({name}, names), "");
   NodeCore other({"", "", ""}, [](const PairedFrame&, const FrameAnswer&) {});
   Given wrong{{{"gate.false_positive_rate", 5}}};
