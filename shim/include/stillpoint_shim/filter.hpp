@@ -60,7 +60,8 @@ class Filter {
   /// The answer for the last frame.
   const Result& result() const { return result_; }
 
-  /// How much each feature of the last frame may say in an estimate, 0 to 1: one minus the probability that it moves.
+  /// How much each feature of the last frame may say in an estimate, 0 to 1: the probability
+  /// that it is static, and less where something moved before (`stillpoint::weights`).
   void weights(std::vector<float>& weights) const {
     weights.resize(result_.keep.size());
     detail::copy_weights(*engine_, weights.data(), weights.size());
