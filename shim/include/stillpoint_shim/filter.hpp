@@ -72,10 +72,10 @@ class Filter {
   void mask(cv::Mat& mask, int margin_px = 12) const { detail::paint_mask(*engine_, margin_px, pixels_of(mask)); }
 
   /// Paints where the coming frame should be looked at, as CV_8UC1 of the camera's size: 255 keeps, 0 drops. For a host
-  /// that extracts features under a mask, so that its budget goes to what stands still; all of it is 255 where the last
+  /// that extracts features under a mask, so that its budget goes to static features; all of it is 255 where the last
   /// frame was not judged. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
-  /// @param margin_px    more is dropped around what moves; 8 in all measured figures (docs/adopting.md)
+  /// @param margin_px    more is dropped around moving objects; 8 in all measured figures (docs/adopting.md)
   void predicted_keep_mask(double timestamp_s, cv::Mat& mask, int margin_px = 8) const {
     detail::paint_predicted_keep_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
   }
