@@ -111,7 +111,7 @@ void measure(const std::filesystem::path& data, std::size_t most_frames, unsigne
   if (failure) std::rethrow_exception(failure);
 
   if (most_frames != kAllFrames) std::printf("At most %zu frames of each sequence.\n\n", most_frames);
-  print_table("Recall on what moves / false positives on the background, %", columns, rows, outcomes,
+  print_table("Recall on dynamic features / false positives on the background, %", columns, rows, outcomes,
               [](const Outcome& o) {
                 return cell(o.recall_percent, "%.1f") + " / " + cell(o.false_positives_percent, "%.1f");
               });

@@ -36,7 +36,7 @@ struct LabelledSequence {
   std::vector<LabelledFrame> frames;
 };
 
-/// The creeping box, of which all pixels are labelled as moving: 2 cm/s in a second, not in five frames.
+/// The slow box, of which all pixels are labelled as moving: 2 cm/s in a second, not in five frames.
 inline synthetic::Scene slow_mover() {
   synthetic::Scene scene = synthetic::slow_mover();
   scene.motion_rule.window_frames = 30;

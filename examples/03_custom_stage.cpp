@@ -25,7 +25,7 @@ struct MedianGate {
   };
   Options options;  // a stage is a public member of the filter: filter.gate.options.sigmas = 4.0
 
-  /// Required. Called once a frame, when each feature has its score and before any has a verdict.
+  /// Required. Called once per frame, when each feature has its score and before any has a verdict.
   /// @param scores     one a feature; NaN where it could not be scored
   /// @param regions    which features lie in a detector's boxes: this gate does not ask
   /// @param workspace  scratch memory that allocates nothing once it has grown

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// 04_movers: what moves, where, and how fast? Two rendered people cross; a perfect detector names them.
+// 04_movers: which objects move, where, and how fast? Two rendered people cross; a perfect detector names them.
 
 #include <cstdio>
 #include <opencv2/features2d.hpp>

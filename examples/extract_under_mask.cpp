@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // extract_under_mask FOLDER...: what a feature budget buys when it is spent under the mask of the coming frame. Each
-// folder is a sequence in the layout of the TUM benchmark with labels. ORB takes 1000 features a frame, once anywhere
+// folder is a sequence in the layout of the TUM benchmark with labels. ORB takes 1000 features per frame, once anywhere
 // and once where `predicted_keep_mask` keeps; both times the filter then judges what was found.
 
 #include <opencv2/features2d.hpp>
@@ -62,7 +62,7 @@ int main(int argument_count, char** arguments) {
   try {
     for (int i = 1; i < argument_count; ++i) {
       const stillpoint::TumSequence sequence(arguments[i]);
-      std::printf("%s, features a frame\n", arguments[i]);
+      std::printf("%s, features per frame\n", arguments[i]);
       for (const bool is_under_mask : {false, true}) run(sequence, is_under_mask);
     }
     return 0;

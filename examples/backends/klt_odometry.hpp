@@ -41,7 +41,7 @@ struct TrackedPoints {
 };
 
 /// A backend of `FilteredTracker`. A track that the filter drops has ended: no keyframe's point is found by it again,
-/// also where its thing stood when the keyframe was taken. Equal frames give equal bytes.
+/// also where its object was when the keyframe was taken. Equal frames give equal bytes.
 class KltOdometry {
  public:
   struct Options {

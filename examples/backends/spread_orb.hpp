@@ -47,7 +47,7 @@ class SpreadOrb {
     return features;
   }
 
-  /// What moves soon covers most of a picture, and most corners would be found on it only to be dropped. So where the
+  /// Moving objects soon cover most of an image, and most corners would be found on it only to be dropped. So where the
   /// filter dropped more of this frame's corners than it kept, the next frame has fewer: the rest has more.
   /// @param extracted  of the last frame, all of them
   /// @param kept       those that the filter kept

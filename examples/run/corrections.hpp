@@ -28,7 +28,7 @@ inline constexpr std::array<Correction, 15> kCorrections = {{
     {"clusters", "a tenth as many clusters as features, undivided, that decide alone"},
     {"all-features", "only features in boxes of moving classes are tested"},
     {"older-frames", "features are looked for in the last frame alone"},
-    {"memory", "each frame is judged by itself; no suspicion either"},
+    {"memory", "each frame is judged by itself; no dynamic prior either"},
     {"lost-features", "what no longer looks alike is no evidence"},
     {"past-hypothesis", "the motion is that with the most support, whatever went before"},
     {"inertia", "the motion is what was measured, whatever the velocity was"},

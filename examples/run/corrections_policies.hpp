@@ -72,7 +72,7 @@ struct SwitchedScore : stillpoint::ReprojectionScore {
   bool is_whitened = true;
   stillpoint::OffsetScore offset;
 
-  /// The fairest scale that two numbers can be: median and 99th percentile of what stands still in
+  /// The fairest scale that two numbers can be: median and 99th percentile of static features in
   /// synthetic::static_room become those that likelihoods have there.
   double scaled(double value) const noexcept {
     constexpr double kMedian = 0.0102, kOnePercent = 0.0306, kLikelihoodMedian = -0.94, kLikelihoodOnePercent = 3.06;
@@ -102,7 +102,7 @@ struct SwitchedScore : stillpoint::ReprojectionScore {
   }
 };
 
-/// The mean of what stands still in place of the tail of its scores.
+/// The mean of static features in place of the tail of its scores.
 struct SwitchedGate : stillpoint::TailGate {
   bool is_calibrated = true;
   float lowest = 0;  ///< the classifier's: it judges scores below as this one, and so does the mean

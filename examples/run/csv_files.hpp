@@ -18,7 +18,7 @@
 
 namespace stillpoint_run {
 
-/// One row a feature a frame; what is not known is `nan`, a feature of no cluster has -1.
+/// One row per feature and frame; what is not known is `nan`, a feature of no cluster has -1.
 class FeaturesFile {
  public:
   explicit FeaturesFile(const std::filesystem::path& file) : file_(file) {
@@ -66,7 +66,7 @@ class FeaturesFile {
   std::string text_;
 };
 
-/// One row a frame, with the motion that its verdicts assumed: current_from_reference, `nan` where there was none;
+/// One row per frame, with the motion that its verdicts assumed: current_from_reference, `nan` where there was none;
 /// warnings have `|` between them.
 class FramesFile {
  public:
@@ -107,8 +107,8 @@ class FramesFile {
   stillpoint::AtomicFile file_;
 };
 
-/// One row a mover a frame: place and velocity in the axes of the current camera, the velocity relative to the world;
-/// the class is `unknown` where no detector named it.
+/// One row per mover and frame: place and velocity in the axes of the current camera, the velocity relative to the
+/// world; the class is `unknown` where no detector named it.
 class MoversFile {
  public:
   explicit MoversFile(const std::filesystem::path& file) : file_(file) {

@@ -46,7 +46,7 @@ struct SourceFrame {
   }
 };
 
-/// A sequence of frames with a camera. One call a frame: virtual functions cost nothing here.
+/// A sequence of frames with a camera. One call per frame: virtual functions cost nothing here.
 class FrameSource {
  public:
   FrameSource() = default;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How far each feature is from where it would be if it stood still: for pictures alone.
+// How far each feature is from where it would be if it stood still: for drawings alone.
 
 #include <algorithm>
 #include <cstddef>

@@ -24,7 +24,7 @@ class MapView {
     up_ = Vector3d::Unit(axis) * (up[axis] < 0 ? -1.0 : 1.0);
     const Vector3d sight = path.front().world_from_camera.linear().col(2);
     ahead_ = sight - sight.dot(up_) * up_;
-    // Looking straight up or down, the picture's up is ahead.
+    // Looking straight up or down, the image's up is ahead.
     if (!(ahead_.norm() > 0.1)) ahead_ = -path.front().world_from_camera.linear().col(1);
     ahead_.normalize();
     right_ = ahead_.cross(up_);

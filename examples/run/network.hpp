@@ -22,7 +22,7 @@
 
 namespace stillpoint_run {
 
-/// A detector that was read from a file. One call a frame: virtual functions cost nothing here.
+/// A detector that was read from a file. One call per frame: virtual functions cost nothing here.
 class Network {
  public:
   Network() = default;

@@ -240,7 +240,7 @@ inline Options parse_options(int argument_count, const char* const* arguments) {
       "monocular");
   detail::add_choice(
       app, "--ego-motion", options.ego_motion, {"default", "rigid", "epipolar"},
-      "how the camera's motion is estimated; default is that of the policies: weighted by area and trust "
+      "how the camera's motion is estimated; default is that of the policies: weighted by area and static prior "
       "for the default ones, epipolar for the paper's");
   app.add_option("--paper-as-printed", options.as_printed, "printed errors of the paper to repeat, separated by commas")
       ->delimiter(',')

@@ -53,7 +53,7 @@ inline void draw_feature(cv::Mat& image, const FeatureRow& row, const stillpoint
   }
 }
 
-/// Solid, or in dashes; what lies far outside of the picture is cut off.
+/// Solid, or in dashes; what lies far outside of the image is cut off.
 inline void draw_box(cv::Mat& image, const cv::Rect2f& whole, int width_px, bool is_dashed) {
   constexpr float kMargin_px = 20.0f;
   const cv::Rect2f box = whole & cv::Rect2f(-kMargin_px, -kMargin_px, static_cast<float>(image.cols) + 2 * kMargin_px,
@@ -74,7 +74,7 @@ inline void draw_box(cv::Mat& image, const cv::Rect2f& whole, int width_px, bool
   side(left_top, left_bottom);
 }
 
-/// What of a box is the thing itself, as a tint.
+/// What of a box is the object itself, as a tint.
 inline void tint_mask(cv::Mat& image, const stillpoint::Detection& detection) {
   if (!detection.mask) return;
   constexpr double kOpacity = 0.35;
@@ -110,7 +110,7 @@ inline cv::Mat draw_overlay(const SourceFrame& frame, const FrameRecord& record,
     const cv::Rect2f box(found.x, found.y, found.width, found.height);
     const stillpoint::Mobility mobility = region.detection.mobility;
     detail::draw_box(image, box, mobility == stillpoint::Mobility::dynamic ? 2 : 1, region.is_carried);
-    // Of a box that reaches over the picture's border the name is drawn inside.
+    // Of a box that reaches over the image's border the name is drawn inside.
     detail::draw_text(image, (class_name.empty() ? "" : class_name + ": ") + to_string(mobility),
                       cv::Point(cv::Point2f(std::max(box.x, 0.0f), std::max(box.y, 0.0f))) + cv::Point(5, 17));
   }

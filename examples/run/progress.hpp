@@ -25,7 +25,7 @@ class Progress {
     if (line_is_open_) std::fputc('\n', stderr);
   }
 
-  /// Call it once a frame, after the frame.
+  /// Call it once per frame, after the frame.
   void frame_done() {
     ++done_;
     if (quiet_) return;

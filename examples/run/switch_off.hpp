@@ -78,7 +78,7 @@ void switch_off(const Without& without, stillpoint::FrameFilter<Policies>& filte
   }
   if (without("memory")) {
     auto& memory = filter.memory.options;
-    memory.log_odds_decay_s = memory.suspicion_decay_s = 0.0;
+    memory.log_odds_decay_s = memory.dynamic_prior_decay_s = 0.0;
   }
   if (without("keep-floor")) filter.keep_floor.options.fewest_features = filter.keep_floor.options.fewest_cells = 0;
 }

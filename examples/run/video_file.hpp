@@ -35,18 +35,18 @@ class VideoFile {
   }
 
   /// Appends a frame. The first two tell the rate: videos have one.
-  /// @param picture  CV_8UC3, of the same size each time
+  /// @param image  CV_8UC3, of the same size each time
   /// @throws stillpoint::Error where there is no encoder or no place to write
-  void write(const cv::Mat& picture, double time_s) {
-    if (writer_.isOpened()) return writer_.write(picture);
+  void write(const cv::Mat& image, double time_s) {
+    if (writer_.isOpened()) return writer_.write(image);
     if (first_.empty()) {
-      first_ = picture.clone();
+      first_ = image.clone();
       first_s_ = time_s;
       return;
     }
     open(rate_of(time_s - first_s_));
     writer_.write(first_);
-    writer_.write(picture);
+    writer_.write(image);
   }
 
   /// Gives the video its name.

@@ -62,7 +62,7 @@ inline std::string one_word(std::string name) {
   return name.empty() ? "unknown" : name;
 }
 
-/// In which regions each feature is, as the filter asked: where a thing's depth is known, by depth, too.
+/// In which regions each feature is, as the filter asked: where an object's depth is known, by depth, too.
 inline void locate(FrameRecord& record) {
   stillpoint::Regions regions;
   for (const RegionRow& row : record.regions) regions.detections.push_back(row.region.detection);

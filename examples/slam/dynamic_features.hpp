@@ -3,7 +3,7 @@
 #pragma once
 
 // Which features of a frame does the map call dynamic?   Those like a point of the map, near it, and not where it must
-// be. A map remembers longer than the filter, so it finds what creeps: this goes back to the filter.
+// be. A map remembers longer than the filter, so it finds slow movers: this goes back to the filter.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace examples::slam {
 
-/// A feature that deviates from the place where its point was first seen: what creeps takes its points along.
+/// A feature that deviates from the place where its point was first seen: a slow mover takes its points along.
 /// @param pose_sigma_m  by which the map's keyframes may be off against each other
 bool has_moved(const MapPoint& point, const Map& map, const Frame& frame, int feature, const Camera& camera,
                const MeasurementNoise& noise, double pose_sigma_m);

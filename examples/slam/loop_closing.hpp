@@ -42,7 +42,7 @@ class LoopClosing {
         0.4;                     ///< a candidate is at least this share as similar as the most similar covisible one
     std::size_t candidates = 3;  ///< that are looked at
     std::size_t fewest_points = 50;  ///< of the place that the keyframe must show
-    double fewest_share = 0.2;  ///< of the place's points in the picture must be found; seen from aside, half are not
+    double fewest_share = 0.2;  ///< of the place's points in the image must be found; seen from aside, half are not
     double ambiguous = 0.9;     ///< another place of this share of the similarity must not fit as well
     PointSearch search;
     Options() {

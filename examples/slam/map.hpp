@@ -22,7 +22,7 @@ struct Observation {
   int feature = kNone;
 };
 
-/// Where a point was first seen. Its place in the map follows what is seen later: what creeps takes its points along.
+/// Where a point was first seen. Its place in the map follows what is seen later: a slow mover takes its points along.
 struct FirstSeen {
   KeyframeId keyframe = kNone;              ///< that holds it: a neighbour, once the one that made it is gone
   Vector3d p_camera = Vector3d::Zero();     ///< in the camera of that keyframe

@@ -33,8 +33,8 @@ std::vector<KeyframeId> Mapping::neighbours(KeyframeId id, const Map& map) const
   return result;
 }
 
-/// Not those that deviate: what moves makes a new point wherever it has come to, and all of them together drag the pose
-/// along.
+/// Not those that deviate: a moving object makes a new point wherever it has come to, and all of them together drag the
+/// pose along.
 void Mapping::add_points_by_depth(KeyframeId id, Map& map) const {
   const Keyframe& keyframe = map.keyframe(id);
   const Pose world_from_camera = keyframe.camera_from_world.inverse();

@@ -30,12 +30,12 @@ struct PointSearch {
   double oblique_cosine = 0.5;  ///< seen more aslant than this from how it was seen so far, it looks different
 
   /// @param matches   appended to: at most one for each point and for each feature
-  /// @param expected  appended to where it is given: points that lie in the picture, found or not
+  /// @param expected  appended to where it is given: points that lie in the image, found or not
   void operator()(const Map& map, span<const PointId> points, const Camera& camera, const Pose& camera_from_world,
                   const Frame& frame, std::vector<PointMatch>& matches, std::vector<PointId>* expected = nullptr) const;
 };
 
-/// A point in the picture of a camera.
+/// A point in the image of a camera.
 struct Projection {
   bool is_visible = false;
   Vector2d pixel = Vector2d::Zero();  ///< undistorted

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Do two places show the same objects? Rooms have many desks; what stands on them tells one from the other.
+// Do two places show the same objects? Rooms have many desks; the objects on them tell one from the other.
 
 #include <algorithm>
 #include <map>
@@ -13,7 +13,7 @@
 
 namespace examples::slam {
 
-/// How alike two lists of objects are: the intersection of histograms over class and third of the picture's width, in
+/// How alike two lists of objects are: the intersection of histograms over class and third of the image's width, in
 /// which an object in the neighbouring third counts half. People and cars are no part of a place: leave them out.
 /// @return `least` for nothing in common to 1 for the same; 1 where one of them shows nothing at all
 inline double semantic_similarity(stillpoint::span<const SeenObject> a, stillpoint::span<const SeenObject> b,

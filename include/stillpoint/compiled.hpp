@@ -118,10 +118,10 @@ class FrameFilter<CompiledPolicies> {
   SupportMotion& ego_motion;        ///< how did the camera move?
   ReprojectionScore& scorer;        ///< how badly does each feature disagree with that motion?
   TailGate& gate;                   ///< which disagreement is more than noise?
-  SurfaceClusters& classifier;      ///< what moves together?
+  SurfaceClusters& classifier;      ///< which features move together?
   EvidenceMemory& memory;           ///< what did we know of this feature?
   KeepFloor& keep_floor;            ///< how much must be left?
-  MaskPrediction& mask_prediction;  ///< where will the coming frame show what moves?
+  MaskPrediction& mask_prediction;  ///< where will the coming frame show moving objects?
 
   template <class Keypoints>
   const FrameResult& filter_frame(const FrameView& frame, const Keypoints& keypoints) {

@@ -56,11 +56,11 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   EgoMotion ego_motion;                         ///< how did the camera move?
   typename Policies::Scorer scorer;             ///< how badly does each feature disagree with that motion?
   typename Policies::Gate gate;                 ///< which disagreement is more than noise?
-  typename Policies::Classifier classifier;     ///< what moves together?
+  typename Policies::Classifier classifier;     ///< which features move together?
   Memory memory;                                ///< what did we know of this feature?
   typename Policies::KeepFloor keep_floor;      ///< how much must be left?
   MoversOf<Policies> movers;                    ///< which objects move, and how?
-  MaskPrediction mask_prediction;               ///< where will the coming frame show what moves?
+  MaskPrediction mask_prediction;               ///< where will the coming frame show moving objects?
 
   /// Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time.
   /// @param host_frame  its views need not outlive the call
@@ -112,10 +112,10 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
-  /// that its budget goes to what stands still. Everywhere, where the last frame was not judged or an option is out of
+  /// that its budget goes to static features. Everywhere, where the last frame was not judged or an option is out of
   /// its range. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
-  /// @param margin_px    more is dropped around what moves; 8 in all measured figures (docs/adopting.md)
+  /// @param margin_px    more is dropped around moving objects; 8 in all measured figures (docs/adopting.md)
   /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
   void predicted_keep_mask(double timestamp_s, int margin_px, ImageBuffer& mask) {
     if (!options_error().empty()) return keep_everywhere(camera.width(), camera.height(), mask);
@@ -194,7 +194,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::score, [&] { scorer.score(observations_, motion, camera, scores); });
     timings.run(Stage::gate, [&] { evidence.threshold = gate.threshold(scores, regions, workspace_); });
 
-    // Verdicts: what moves together, what did we know, and how much must be left?
+    // Verdicts: which features move together, what did we know, and how much must be left?
     const span<Label> labels = workspace_.take<Label>(matches.size());
     timings.run(Stage::classify, [&] { classifier.classify(observations_, evidence, labels, workspace_); });
     timings.run(Stage::gate, [&] { learn(gate, observations_, labels); });

@@ -30,7 +30,7 @@
 // | Filter   | void expect_dynamic(span<const std::uint8_t>)          | optional: what `dynamic_features` returned    |
 // clang-format on
 //
-// Each is called once a frame, in the order of `track` below, `feedback` and `dynamic_features` only where there is a
+// Each is called once per frame, in the order of `track` below, `feedback` and `dynamic_features` only where there is a
 // pose, `expect_motion` only where the filter knows the motion and its length.
 
 #include <cstdint>
@@ -102,7 +102,7 @@ template <class T> struct has_feedback<T, std::void_t<decltype(
 
 // clang-format on
 
-/// Instantiated by `FilteredTracker`: one readable error for the first thing that is missing.
+/// Instantiated by `FilteredTracker`: one readable error for the first member that is missing.
 template <class Filter, class Backend>
 class TrackerContract {
   template <class B, class = void>

@@ -31,6 +31,10 @@ struct image_traits<cv::Mat> {
   }
 };
 
+/// cv::Mat1b, cv::Mat1w and the like.
+template <class Pixel>
+struct image_traits<cv::Mat_<Pixel>> : image_traits<cv::Mat> {};
+
 template <>
 struct keypoint_traits<cv::KeyPoint> {
   static Vector2f pixel(const cv::KeyPoint& keypoint) { return {keypoint.pt.x, keypoint.pt.y}; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// FrameResult.movers: what moves, where, and how.
+// FrameResult.movers: the moving objects, where they are and how they move.
 
 #include <cstdint>
 #include <memory>

@@ -51,6 +51,7 @@ class FrameWarning(enum.IntEnum):
     times_far_apart = 9
     nothing_fits = 10
     depth_unsynchronised = 11
+    depth_shape_differs = 12
 
 class Verdict(enum.IntEnum):
     """What a feature is, as far as can be told."""

@@ -34,7 +34,7 @@ class InputWatch {
     why_ = std::move(why);
   }
 
-  /// One sentence for each thing that keeps frames from being judged; none where all is well.
+  /// One sentence for each fault that keeps frames from being judged; none where all is well.
   std::vector<std::string> missing(double now_s, FramePairing& pairing) const {
     std::vector<std::string> sentences;
     for (std::size_t i = 0; i < kInputCount; ++i) {

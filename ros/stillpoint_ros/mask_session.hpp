@@ -28,7 +28,7 @@ namespace stillpoint_ros {
 /// What comes, how masks are made of verdicts, and whether movers are followed.
 struct MaskOptions {
   int features = 1000;                    ///< ORB keypoints per frame, which the filter judges
-  int margin_px = 8;                      ///< more is dropped around what moves
+  int margin_px = 8;                      ///< more is dropped around moving objects
   double depth_units_per_metre = 1000.0;  ///< of 16-bit depth; ROS (REP 118) says millimetres
   bool follow_movers = false;             ///< answers have movers
   bool rectified = false;                 ///< the images are: the camera is P of camera_info, not K and D

@@ -86,7 +86,7 @@ class NodeCore {
     if (detections_.size() > most_detections_) detections_.erase(detections_.begin());
   }
 
-  /// What happened since the last call, once a second.
+  /// What happened since the last call, once per second.
   Report report() {
     const std::lock_guard<std::mutex> lock(mutex_);
     Report report;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// The pose alone: nobody would know whether it can be trusted.
+// The pose alone: nobody would know whether it is valid.
 // expected: stillpoint: Policies::EgoMotion must offer Motion estimate(const Observations&, const Camera&, const MotionPrior&, Workspace&); see motion/rigid/rigid_motion.hpp
 
 #include "sound_policies.hpp"

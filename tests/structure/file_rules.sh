@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 
 # file_rules.sh PROJECT: every source says whose it is, no header and no example is long, nobody draws random numbers
-# behind our back nor uses what newer versions of OpenCV do not have, each header asks for C++17 first.
+# behind our back nor uses what newer versions of OpenCV do not have, each header asks for C++17 first. What users read
+# has the field's words: one term for one idea.
 # Prints `file:line: ...` for each offence; exit status 1.
 set -euo pipefail
 cd "$1"
@@ -26,6 +27,20 @@ no_header_has() {
   grep -nHE "$1" "${headers[@]}" < /dev/null | sed -E "s@^([^:]*:[0-9]+):.*@\1: $2@" || true
 }
 
+# Headers and guides (docs/design/ tells of earlier versions): code and comments. Old names may be deprecated or replaced.
+readable=()
+for folder in include shim; do
+  [[ ! -d $folder ]] || mapfile -t -O "${#readable[@]}" readable < <(find "$folder" -type f ! -name replaced_options.hpp)
+done
+[[ ! -f README.md ]] || readable+=(README.md)
+[[ ! -d docs ]] || mapfile -t -O "${#readable[@]}" readable < <(find docs -path docs/design -prune -o -name '*.md' -print)
+
+# nobody_writes PATTERN INSTEAD: without regard to upper and lower case.
+nobody_writes() {
+  grep -niHE "$1" "${readable[@]}" < /dev/null | grep -vF '[[deprecated(' |
+    sed -E "s@^([^:]*:[0-9]+):.*@\1: another word: $2@" || true
+}
+
 offences=$({
   awk 'FNR <= 3 && /SPDX-License-Identifier: MIT/ { marked[FILENAME] = 1 }
     END { for (i = 1; i < ARGC; ++i) if (!(ARGV[i] in marked)) print ARGV[i] ":1: no line \x27SPDX-License-Identifier: MIT\x27" }' \
@@ -43,6 +58,23 @@ offences=$({
   # OpenCV 4.11 took the operators away from its vector types.
   no_header_has 'opencv2/core/hal/|CV_SIMD|\bv_u?(int|float)(8|16|32|64)(x[0-9]+)?\b' \
     'no universal intrinsics of OpenCV: loops that compilers vectorise, or Eigen'
+  if ((${#readable[@]} > 0)); then
+    nobody_writes 'trust' 'static prior, weight; of data: used, valid'
+    nobody_writes 'suspic|suspect' 'dynamic prior'
+    nobody_writes 'creep|crept' 'slow, moves slowly'
+    nobody_writes 'restless|undisputed' 'the name of the quantity, and its unit'
+    nobody_writes '\bthings?\b' 'object'
+    nobody_writes '\bpictures?\b' 'image'
+    nobody_writes '\b(what (moves?|stands?)|who stands? still)\b' 'dynamic, static features; moving objects'
+    nobody_writes '\b(standing camera|camera that stands)\b' 'stationary camera'
+    nobody_writes '\bsightings?\b' 'observation'
+    nobody_writes '\bkey points?\b' 'keypoint'
+    nobody_writes '\bpolish(ed|es|ing)?\b' 'refine'
+    nobody_writes '\bfalse alarms?\b' 'false positives, false-positive rate'
+    nobody_writes '[0-9] % (below|above)\b' '95th percentile'
+    nobody_writes '(\b(px|pixels?|mm|cm|m|ms|nats|bytes?|MB|times|frames|images|features|call)|\)) an? (frame|second|feature|keypoint|pixel|iteration)\b' \
+      'per frame, per second'
+  fi
   # Whichever header a host includes: the first of ours to be read to its end is one that includes no other.
   find include -mindepth 3 -name '*.hpp' ! -name needs_cpp17.hpp -exec grep -L '^#include "stillpoint/' {} + |
     sed 's|$|:1: in C++14 not one error: include core/needs_cpp17.hpp|'

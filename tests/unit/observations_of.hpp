@@ -9,7 +9,7 @@
 
 namespace stillpoint::test {
 
-/// What a stage reads of these matches and regions when nothing is remembered: the trust is that of space.
+/// What a stage reads of these matches and regions when nothing is remembered: the static prior is that of free space.
 inline Observations observations_of(Matches matches, Regions regions = {}) {
   Observations observations{std::move(matches), std::move(regions), {}};
   observations.remembered.begin(observations.matches);

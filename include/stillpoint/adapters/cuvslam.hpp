@@ -12,7 +12,7 @@
 
 namespace stillpoint::cuvslam {
 
-/// 255 where the host shall drop, else 0: one byte a pixel, rows without gaps.
+/// 255 where the host shall drop, else 0: one byte per pixel, rows without gaps.
 /// @param mask  gray8, 255 keeps
 /// @throws Error if it is empty or no gray8 image
 inline cv::Mat mask_nonzero_drops(const ImageView& mask) { return mask_255_drops(mask); }

@@ -21,7 +21,7 @@ namespace stillpoint {
 inline void require_mask(const char* user, const ImageView& mask) {
   if (mask.empty() || mask.format != PixelFormat::gray8)
     throw Error(std::string(user) + ": the mask is " + (mask.empty() ? "empty" : "no gray8 image") +
-                ", expected gray8, one byte a pixel");
+                ", expected gray8, one byte per pixel");
 }
 
 /// @param user   begins the message

@@ -39,7 +39,7 @@ struct CameraDataContract {
 
 /// Fills `masks` of a message with one mask for each of its images: 255 where the host shall drop, else 0. Each has
 /// pixels of its own, because the host looks at the last frame's mask again. Where the host halves images
-/// (downsample_cameras), pyrDown blurs a mask's edge by some two pixels: keep a margin around what moves.
+/// (downsample_cameras), pyrDown blurs a mask's edge by some two pixels: keep a margin around moving objects.
 /// @param message  CameraData with its images; what `masks` held is given up
 /// @param masks    one for each image: gray8 of its size, 255 keeps; an empty one drops nothing
 /// @throws Error if the number of masks or a mask's size or format is another; then `masks` of the message is unchanged

@@ -215,7 +215,7 @@ void erase_masked_candidates(const ImageView& mask, Candidates& candidates, int 
 
 /// invSigma2 of an edge in Optimizer::PoseOptimization, times what the filter thinks of its feature.
 /// @param inv_sigma2  the host's, of the keypoint's pyramid level
-/// @param weights     one per keypoint as `stillpoint::weights` gives them, 0 to 1; empty: all are trusted
+/// @param weights     one per keypoint as `stillpoint::weights` gives them, 0 to 1; empty: all are 1
 /// @param i           the keypoint
 /// @param least       lowest weight: an edge without information has no error and passes for an inlier
 template <class Scalar>

@@ -6,7 +6,7 @@
 // patch.
 //
 //   features  compact_features            then SensorData::setFeatures: registration detects none of its own
-//   depth     depth_0_drops               clouds and grids lose what moves as well
+//   depth     depth_0_drops               clouds and grids lose moving objects as well
 //
 // The host keeps what it is given in queues: both hand over memory of their own.
 

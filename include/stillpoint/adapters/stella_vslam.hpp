@@ -6,7 +6,7 @@
 // the whole of it.
 //
 //   patch      camera, keep_floor       in create_RGBD_frame: docs/hosts/stella_vslam.diff
-//   keypoints  compact_observation      between create_RGBD_frame and feed_frame: drops no neighbours of what moves
+//   keypoints  compact_observation      between create_RGBD_frame and feed_frame: drops no neighbours of dynamic ones
 //   mask       frame_mask_0_drops       feed_RGBD_frame(rgb, depth, timestamp, mask): before the features are chosen
 //
 // A mask costs more than what it covers: a cell of 64 pixels of the pyramid level is skipped whole where one of its

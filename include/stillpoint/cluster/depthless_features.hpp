@@ -41,10 +41,10 @@ struct Surroundings {
   }
 };
 
-/// How often is depth missing on what moves, compared with what stands? A sensor that loses depth at glass, metal and
-/// in the shadow of its projector loses it on static surfaces; one that loses it at hair and dark cloth, or anywhere,
-/// on people as well. Counted in every frame: features without depth whose surroundings are dynamic, or static, against
-/// those with depth.
+/// How often is depth missing on dynamic features, compared with static ones? A sensor that loses depth at glass, metal
+/// and in the shadow of its projector loses it on static surfaces; one that loses it at hair and dark cloth, or
+/// anywhere, on people as well. Counted in every frame: features without depth whose surroundings are dynamic, or
+/// static, against those with depth.
 class DepthlessPrior {
  public:
   void add_with_depth(bool is_dynamic) noexcept { ++(is_dynamic ? dynamic_ : static_).with_depth; }

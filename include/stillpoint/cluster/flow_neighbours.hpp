@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What moves together, when there is no depth?   Neighbours that go the same way share their evidence.
+// Which features move together, when there is no depth?   Neighbours that go the same way share their evidence.
 
 #include <algorithm>
 #include <cmath>

@@ -169,7 +169,7 @@ inline span<Eigen::Vector3f> k_means_plus_plus(const PointArrays& points, std::s
 }
 
 /// Lloyd's iteration from given centres until no assignment changes any more, or for `max_iterations` (at least one).
-/// A cluster that runs empty takes the point that is farthest from its own centre. O(n k) an iteration.
+/// A cluster that runs empty takes the point that is farthest from its own centre. O(n k) per iteration.
 /// @param centres k of them, at most points.size; moved to their final places
 inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centres, int max_iterations,
                           Workspace& workspace) {

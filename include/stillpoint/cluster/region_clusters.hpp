@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What moves together?   The paper's classifier, Eq. 11 to 14: clusters of the features in dynamic boxes, each judged
-// by its mean score.
+// Which features move together?   The paper's classifier, Eq. 11 to 14: clusters of the features in dynamic boxes, each
+// judged by its mean score.
 
 #include <algorithm>
 #include <cstddef>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What moves together?   Neighbours on one surface share their evidence; features without evidence take it from them.
+// Which features move together?   Neighbours on one surface share their evidence; features without evidence take it
+// from them.
 
 #include <algorithm>
 #include <cmath>
@@ -108,7 +109,7 @@ class SurfaceClusters {
 
   /// A feature without depth is judged by its cluster where older frames confirm its surface, else by its own score and
   /// by the features around it. How often depth is missing on dynamic features shifts the odds. Features that were not
-  /// compared are not shifted: the matcher's corners are such, and one on a mover must become suspect before it moves.
+  /// compared are not shifted: the matcher's corners are such, and on a mover their dynamic prior must rise.
   void label_depthless(const Matches& matches, span<const FeatureScore> scores, span<const float> common, float level,
                        span<Label> labels, Workspace& workspace) const {
     const auto has_depth = [&](std::size_t i) { return matches.current.has_depth(i); };

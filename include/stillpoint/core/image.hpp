@@ -19,8 +19,8 @@ namespace stillpoint {
 
 enum class PixelFormat : std::uint8_t {
   none,         ///< no image
-  gray8,        ///< one byte a pixel
-  bgr8,         ///< three bytes a pixel, blue first
+  gray8,        ///< one byte per pixel
+  bgr8,         ///< three bytes per pixel, blue first
   depth16,      ///< unsigned 16 bit, scaled by a factor
   depth32f,     ///< float metres
   unsupported,  ///< an image of some other type: the frame gets `Status::unsupported_image`

@@ -20,7 +20,7 @@ namespace stillpoint {
 enum class MatchState : std::uint8_t {
   matched,
   lost,       ///< in view, but not found
-  near_edge,  ///< found, but too near to the image border to be trusted for ego-motion
+  near_edge,  ///< found, but too near to the image border to be used for ego-motion
   outside,    ///< its keypoint is outside the image or not finite
 };
 
@@ -78,10 +78,10 @@ struct Matches {
   FrameFeatures current;
   FrameFeatures reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;
-  std::vector<Vector2f> predicted;      ///< where it was in the reference image if it stands still, roughly; pixels
-  std::vector<std::uint8_t> was_there;  ///< views of seconds ago that saw a surface in its place
-  std::vector<float> space_trust;       ///< 0 to 1: less for what came where older views saw through
-  PastObservations past_observations;   ///< in older frames, for a matcher that looks back
+  std::vector<Vector2f> predicted;        ///< where it was in the reference image if it stands still, roughly; pixels
+  std::vector<std::uint8_t> was_there;    ///< views of seconds ago that saw a surface in its place
+  std::vector<float> space_static_prior;  ///< 0 to 1: low where older views saw free space
+  PastObservations past_observations;     ///< in older frames, for a matcher that reprojects into past frames
 
   std::size_t size() const noexcept { return state.size(); }
 
@@ -104,7 +104,7 @@ struct Matches {
     state.clear();
     predicted.clear();
     was_there.clear();
-    space_trust.clear();
+    space_static_prior.clear();
     past_observations.clear();
     resize(host_count);
     for (std::size_t i = 0; i < host_count; ++i) current.pixel[i] = predicted[i] = pixels[i];
@@ -116,7 +116,7 @@ struct Matches {
     extend(state, count, MatchState::lost);
     extend(predicted, count, Vector2f::Zero());
     extend(was_there, count, 0);
-    extend(space_trust, count, 1.0f);
+    extend(space_static_prior, count, 1.0f);
   }
 };
 

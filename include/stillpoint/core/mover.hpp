@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What moves, where, and how: one entry per object.
+// Moving objects, where they are and how they move: one entry per object.
 
 #include <cstddef>
 #include <cstdint>

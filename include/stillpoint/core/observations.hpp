@@ -18,17 +18,17 @@ namespace stillpoint {
 
 /// What was known of features and surfaces before this frame. Parallel to `Matches` and to its surface cells.
 struct Remembered {
-  std::vector<float> trust;          ///< 0 to 1: how much a feature may say of the camera's motion
-  std::vector<float> log_odds;       ///< that it moves, from earlier frames; 0 where nothing is remembered, nats
-  std::vector<float> surface_trust;  ///< 0 to 1: how much a surface cell may say of the camera's motion
+  std::vector<float> static_prior;          ///< of features, 0 to 1: their weight in the camera's motion
+  std::vector<float> log_odds;              ///< that it moves, from earlier frames; 0 where nothing is remembered, nats
+  std::vector<float> surface_static_prior;  ///< of surface cells, 0 to 1: the same
 
-  /// Nothing is remembered: the trust is what the space of the past seconds says.
+  /// Nothing is remembered: the static prior is that of free space in the past seconds.
   void begin(const Matches& matches) {
-    trust = matches.space_trust;
+    static_prior = matches.space_static_prior;
     refill(log_odds, matches.size(), 0.0f);
-    surface_trust.resize(matches.past_observations.surfaces.size());
+    surface_static_prior.resize(matches.past_observations.surfaces.size());
     std::transform(matches.past_observations.surfaces.begin(), matches.past_observations.surfaces.end(),
-                   surface_trust.begin(), [](const SurfaceCell& cell) { return cell.space_trust; });
+                   surface_static_prior.begin(), [](const SurfaceCell& cell) { return cell.space_static_prior; });
   }
 };
 

@@ -46,7 +46,7 @@ struct SurfaceCell {
   Vector3d point = Vector3d::Zero();   ///< in the current camera, metres
   Vector3d normal = Vector3d::Zero();  ///< unit length, in the current camera
   double depth_sigma_m = 0;
-  float space_trust = 1.0f;               ///< 0 to 1, as `Matches::space_trust`
+  float space_static_prior = 1.0f;        ///< 0 to 1, as `Matches::space_static_prior`
   Space seen = Space::unknown;            ///< what the view that was asked last saw in its place
   std::uint8_t was_there = 0;             ///< as `Matches::was_there`
   Vector2f predicted = Vector2f::Zero();  ///< where it was in the reference image if it stands still, pixels

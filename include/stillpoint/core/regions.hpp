@@ -98,12 +98,12 @@ struct Detection {
 
 /// How one feature lies to the regions.
 struct Membership {
-  static constexpr std::int16_t kNone = -1;
+  static constexpr std::int32_t kNone = -1;
 
   bool in_fixed = false;
   bool in_movable = false;
   bool in_dynamic = false;
-  std::int16_t dynamic_region = kNone;  ///< the smallest dynamic region that holds it
+  std::int32_t dynamic_region = kNone;  ///< the smallest dynamic region that holds it
   float edge_distance_px =
       std::numeric_limits<float>::infinity();  ///< to the nearest outline of a fixed or dynamic one
 };
@@ -130,7 +130,7 @@ struct Regions {
           feature.in_dynamic = true;
           if (feature.dynamic_region == Membership::kNone ||
               area(detection.box) < area(detections[static_cast<std::size_t>(feature.dynamic_region)].box))
-            feature.dynamic_region = static_cast<std::int16_t>(r);
+            feature.dynamic_region = static_cast<std::int32_t>(r);
         }
       }
     }

@@ -33,7 +33,7 @@ enum class Verdict : std::uint8_t {
 /// Why a feature got its verdict, and why it was kept or not.
 enum class Reason : std::uint8_t {
   not_judged,       ///< the frame was not judged: see its status
-  outside_regions,  ///< nothing suspicious there (the paper tests features inside dynamic boxes only)
+  outside_regions,  ///< nothing moves there (the paper tests features inside dynamic boxes only)
   static_cluster,   ///< its cluster agrees with the camera's motion
   moving_cluster,   ///< its cluster does not
   consistent,       ///< agrees with the camera's motion
@@ -86,7 +86,7 @@ struct Label {
   std::int32_t cluster = kNoCluster;
   float log_odds = 0;  ///< of this frame alone, then of all frames: that it moves; natural logarithm
   float probability = std::numeric_limits<float>::quiet_NaN();  ///< that it moves, 0 to 1; NaN where nobody says
-  float trust = 1.0f;  ///< 0 to 1: its say in the camera's motion while it stands; less for what moved once
+  float static_prior = 1.0f;  ///< 0 to 1: its weight in the camera's motion; low where something moved before
 };
 
 }  // namespace stillpoint

@@ -26,8 +26,9 @@ enum class Warning : std::uint8_t {
   times_far_apart,           ///< each frame comes too late for the last one
   nothing_fits,              ///< hardly a frame can be judged
   depth_unsynchronised,      ///< depth is older or newer than its image; the filter uses moved depth
+  depth_shape_differs,       ///< its width by its height is not the image's
 };
-constexpr std::size_t kWarningCount = 12;
+constexpr std::size_t kWarningCount = 13;
 
 /// The warning as it is written in files.
 constexpr const char* to_string(Warning warning) noexcept {
@@ -44,6 +45,7 @@ constexpr const char* to_string(Warning warning) noexcept {
     case Warning::times_far_apart: return "times_far_apart";
     case Warning::nothing_fits: return "nothing_fits";
     case Warning::depth_unsynchronised: return "depth_unsynchronised";
+    case Warning::depth_shape_differs: return "depth_shape_differs";
   }
   return "?";
 }

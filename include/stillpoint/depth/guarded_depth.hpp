@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Depth that is trusted only where its neighbours agree.
+// Depth that is used only where its neighbours agree.
 
 #include <cstdint>
 #include <type_traits>

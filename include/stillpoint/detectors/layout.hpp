@@ -75,7 +75,7 @@ constexpr std::string_view to_string(DetectorLayout layout) noexcept {
   return detail::kLayoutNames[static_cast<std::size_t>(layout)];
 }
 
-/// Whether networks of the layout leave several boxes for one thing, for their user to choose from.
+/// Whether networks of the layout leave several boxes for one object, for their user to choose from.
 constexpr bool leaves_duplicates(DetectorLayout layout) noexcept {
   switch (layout) {
     case DetectorLayout::mask_rcnn:

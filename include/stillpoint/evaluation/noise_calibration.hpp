@@ -47,7 +47,7 @@ class NoiseCalibration {
     double least_depth_m = 0.4;        ///< of the first bin; each bin reaches `bin_growth` times as far
     double bin_growth = 1.25;          ///< 0.4 to 9.3 m in 14 bins
     std::size_t fewest_samples = 100;  ///< in a bin
-    float least_trust = 0.95f;         ///< of a match that is taken: nothing near it is suspect
+    float least_static_prior = 0.95f;  ///< of a match that is taken: nothing near it moved before
   };
   Options options;
 
@@ -58,7 +58,7 @@ class NoiseCalibration {
     ++frames_;
     if (motion.pixel_sigma > 0) pixel_sigma_.push_back(motion.pixel_sigma);
     for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (!matches.metric(i) || !(observations.remembered.trust[i] >= options.least_trust)) continue;
+      if (!matches.metric(i) || !(observations.remembered.static_prior[i] >= options.least_static_prior)) continue;
       const double expected_m = (motion.current_from_reference * matches.reference.point[i]).z();
       add_depth(matches.current.depth_m[i], matches.current.depth_m[i] - expected_m);
     }

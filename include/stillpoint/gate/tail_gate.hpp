@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Which disagreement is more than noise?   A score whose false-positive rate the user sets, learned from what stands.
+// Which disagreement is more than noise?   A score whose false-positive rate the user sets, learned from static
+// features.
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ class TailGate {
     const Remembered& remembered = observations.remembered;
     std::size_t known = 0, exceeding = 0;
     for (std::size_t i = 0; i < observations.matches.host_count; ++i) {
-      if (!(remembered.log_odds[i] < kStaticBelow) || !(remembered.trust[i] > kTrusted)) continue;
+      if (!(remembered.log_odds[i] < kStaticBelow) || !(remembered.static_prior[i] > kLeastStaticPrior)) continue;
       ++known;
       exceeding += labels[i].log_odds > 0;
     }
@@ -72,7 +73,7 @@ class TailGate {
   static constexpr double kMostExcess = 2.0;         // times the rate that a frame may count; a mover is no noise
   static constexpr double kMostRaised = 3.0;         // nats
   static constexpr float kStaticBelow = -1.5f;       // remembered log-odds of what is known to be static, nats
-  static constexpr float kTrusted = 0.95f;           // and their trust: nothing nearby is suspect
+  static constexpr float kLeastStaticPrior = 0.95f;  // nothing nearby moved before
   static constexpr std::size_t kFewestStatic = 50;   // of them in a frame; fewer teach nothing
 
   double raised_ = 0.0;

@@ -32,7 +32,7 @@ struct ImageList {
   bool rate_is_assumed = false;  ///< neither the caller nor the names told the time
 };
 
-/// Images a second where nothing tells.
+/// Images per second where nothing tells.
 inline constexpr double kAssumedFrameRate_hz = 30.0;
 
 namespace detail {
@@ -109,7 +109,7 @@ inline std::vector<std::filesystem::path> image_files(const std::filesystem::pat
 }  // namespace detail
 
 /// Lists the images of a folder in the natural order of their names; sub-folders are not looked at.
-/// @param frame_rate_hz  images a second. Without: the names' times where all have one (see `detail::time_of_name`),
+/// @param frame_rate_hz  images per second. Without: the names' times where all have one (see `detail::time_of_name`),
 ///                       else `kAssumedFrameRate_hz`. Times by a rate begin at 0.
 /// @return        at least one image, times rising.
 /// @throws Error if the folder is missing or holds no image, the rate is not positive, or two names tell the same time.
@@ -117,7 +117,7 @@ inline ImageList read_image_folder(const std::filesystem::path& folder,
                                    std::optional<double> frame_rate_hz = std::nullopt) {
   if (frame_rate_hz && !(*frame_rate_hz > 0))
     throw Error("frame rate: found " + std::to_string(*frame_rate_hz) +
-                ", expected a positive number of images a second");
+                ", expected a positive number of images per second");
   ImageList list;
   bool names_tell = !frame_rate_hz;
   for (const std::filesystem::path& file : detail::image_files(folder)) {

@@ -27,7 +27,7 @@ namespace stillpoint {
 class VideoSource {
  public:
   /// Opens a file.
-  /// @param frame_rate_hz  frames a second. Without: each frame's own time, as the file has it.
+  /// @param frame_rate_hz  frames per second. Without: each frame's own time, as the file has it.
   /// @throws Error if the file is missing, breaks off (AVI, MP4 and Matroska tell), is no video that OpenCV reads, or
   ///         holds no frame; if the rate is not positive.
   explicit VideoSource(const std::filesystem::path& file, std::optional<double> frame_rate_hz = std::nullopt)
@@ -83,7 +83,7 @@ class VideoSource {
   void open(Open&& open_capture, const char* expected) {
     if (given_rate_hz_ && !(*given_rate_hz_ > 0))
       throw Error("frame rate: found " + std::to_string(*given_rate_hz_) +
-                  ", expected a positive number of images a second");
+                  ", expected a positive number of images per second");
     bool is_open = false;
     try {
       is_open = open_capture() && grab(first_);

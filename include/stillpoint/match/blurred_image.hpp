@@ -45,7 +45,7 @@ class BlurredImage {
     blur(blur_px);
   }
 
-  /// Takes the mean around each pixel off, and divides by the standard deviation there: what stands in the shade then
+  /// Takes the mean around each pixel off, and divides by the standard deviation there: an object in the shade then
   /// says as much as a bright dress before it.
   /// @param reach_px  pixels of this image to each side
   void equalize_contrast(int reach_px) {

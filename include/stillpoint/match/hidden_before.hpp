@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What stands and was uncovered a moment ago: an older frame that saw what hid it says nothing of it.
+// A static feature that was uncovered a moment ago: an older frame that saw what hid it says nothing of it.
 
 #include <cstddef>
 #include <limits>
@@ -17,9 +17,9 @@ namespace stillpoint {
 /// feature scores 0 nats (ReprojectionScore: 2.5 nats expected, 0.12 each). What contradicts is above, what fits below.
 inline constexpr float kNoEvidence = 0.3f;
 
-/// What the last frame clearly shows in its place stands. An older frame that shows something else there, nearer, says
-/// nothing of it: it becomes `occluded`. Where a frame between shows the feature in another place it has moved, and all
-/// that is older counts.
+/// A feature that the last frame clearly shows in its place is static. An older frame that shows something else there,
+/// nearer, says nothing of it: it becomes `occluded`. Where a frame between shows the feature in another place it has
+/// moved, and all that is older counts.
 ///
 /// A surface that is nearer by less than `PlaceTest::kOcclusion_m` hides nothing by its depth alone, since noise and
 /// slopes look like that, too: a book that stands against the box that was pushed along it looked changed.

@@ -45,7 +45,7 @@ struct OlderFrameChoice {
 
  private:
   static constexpr double kDetectableSigmas = 3.0;    // of the step that the slowest mover makes since the oldest frame
-  static constexpr double kLongestAtLowRate_s = 1.0;  // of the oldest, where three are not to be had within `longest_s`
+  static constexpr double kLongestAtLowRate_s = 1.0;  // of the oldest, where there are not three within `longest_s`
 
   /// The last frame, the oldest that is needed, and one between them (their geometric mean in time); 0 is none. The
   /// oldest is the first against which the slowest mover of interest makes a detectable step at the scene's median
@@ -96,8 +96,8 @@ void predict_places(const Pose& reference_from_current, const Camera& camera, Ma
   }
 }
 
-/// Before the motion is known: chooses the older frames, finds the surfaces in the last one, and distrusts what came
-/// where the views of the past seconds saw free space.
+/// Before the motion is known: chooses the older frames, finds the surfaces in the last one, and lowers the static
+/// prior where the views of the past seconds saw free space.
 /// @param filter_from_expected  where the camera is expected now
 template <class Camera, class Noise>
 void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& surfaces, const SpaceSearch& space,
@@ -111,8 +111,8 @@ void choose_older_frames(const OlderFrameChoice& choice, const SurfaceSearch& su
                       frames.first(1));
     predict_places(frames[0].reference_from_current, camera, matches);
   }
-  space.distrust_what_came(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
-                           surfaces.scaled_step_px(camera), matches, workspace);
+  space.set_static_prior(history.space(), current.timestamp_s, filter_from_expected, camera, noise,
+                         surfaces.scaled_step_px(camera), matches, workspace);
 }
 
 /// Whether a frame shows a feature clearly where a static one would be.

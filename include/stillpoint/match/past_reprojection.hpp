@@ -87,7 +87,7 @@ class PastReprojection {
   static constexpr float kNeighbourhood_px = 32.0f;  // features in one cell of this size are looked for in a row
   static constexpr int kFewestPixels = 25;           // of a patch's 64 that must lie on the feature's surface
   static constexpr DepthTolerance kSameSurface{};
-  static constexpr DepthTolerance kNearer{0.02, 4.0};  // of what may have hidden a point that stands
+  static constexpr DepthTolerance kNearer{0.02, 4.0};  // of what may have hidden a static point
   static constexpr int kOccluderReach_px = 8;          // what is nearer within this reach covers a part of the patch
   static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
   static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one

@@ -37,14 +37,14 @@ class SpaceSearch {
     });
   }
 
-  /// Before the motion is known well: support corners and surfaces that came within the past seconds have little say in
-  /// it. A view that sees through most of the surfaces is one whose pose is wrong: it says nothing. What no view saw
+  /// Before the motion is known well: support corners and surfaces that came within the past seconds get a low static
+  /// prior. A view that sees through most of the surfaces is one whose pose is wrong: it says nothing. What no view saw
   /// before belongs to the surface beside it.
   /// @param step_px  spacing of the surfaces' cells
   template <class Camera, class Noise>
-  void distrust_what_came(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_expected,
-                          const Camera& camera, const Noise& noise, int step_px, Matches& matches,
-                          Workspace& workspace) const {
+  void set_static_prior(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_expected,
+                        const Camera& camera, const Noise& noise, int step_px, Matches& matches,
+                        Workspace& workspace) const {
     const span<SurfaceCell> cells = matches.past_observations.surfaces;
     const Workspace::Scope scope(workspace);
     const SeenEarly seen_early{workspace.take<std::uint8_t>(cells.size(), 0),
@@ -59,31 +59,32 @@ class SpaceSearch {
       }
       if (static_cast<double>(through) > kMostCame * static_cast<double>(through + there)) return;
       const bool is_old = elapsed_s > kSettled_s, is_early = elapsed_s >= early_s;
-      const auto judge = [&](Space seen, float& trust, std::uint8_t& was_there, std::uint8_t& was_early) {
-        if (seen == Space::free) trust = std::min(trust, kTrustOfWhatCame);
+      const auto judge = [&](Space seen, float& static_prior, std::uint8_t& was_there, std::uint8_t& was_early) {
+        if (seen == Space::free) static_prior = std::min(static_prior, kFreeSpaceStaticPrior);
         if (seen == Space::occupied && is_old) ++was_there;
         if (seen == Space::occupied && is_early) was_early = 1;
       };
       for (std::size_t s = 0; s < cells.size(); ++s)
-        judge(cells[s].seen, cells[s].space_trust, cells[s].was_there, seen_early.cells[s]);
+        judge(cells[s].seen, cells[s].space_static_prior, cells[s].was_there, seen_early.cells[s]);
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
         if (matches.current.has_depth(i))
-          judge(look(matches.current.point[i]), matches.space_trust[i], matches.was_there[i], seen_early.corners[i]);
+          judge(look(matches.current.point[i]), matches.space_static_prior[i], matches.was_there[i],
+                seen_early.corners[i]);
     });
-    spread_distrust(static_cast<float>(step_px), camera.fx(), seen_early, matches, workspace);
+    spread_to_unseen(static_cast<float>(step_px), camera.fx(), seen_early, matches, workspace);
   }
 
  private:
   // Chosen on the kitchen recordings under all conditions of bench/conditions.sh and on Bonn's crowd.
-  static constexpr double kNewest_s = 0.3;          // views newer than this show who came still there
-  static constexpr double kMargin_m = 0.08;         // free is what was farther by this …
-  static constexpr double kDrift_m_s = 0.05;        // … and this much more for each second that poses are chained …
-  static constexpr double kSigmas = 4.0;            // … and so many standard deviations of both depths
-  static constexpr double kMostCame = 0.6;          // share of the surfaces: people hide half of a room, rarely more
-  static constexpr double kSettled_s = 2.2;         // what was there so long ago is no newcomer …
-  static constexpr double kEarlyShare = 0.5;        // … nor, while less is remembered, this share of it ago
-  static constexpr float kTrustOfWhatCame = 0.05f;  // as that of what was seen moving for some frames
-  static constexpr int kSpreadCells = 12;           // half of an image's width
+  static constexpr double kNewest_s = 0.3;    // views newer than this show who came still there
+  static constexpr double kMargin_m = 0.08;   // free is what was farther by this …
+  static constexpr double kDrift_m_s = 0.05;  // … and this much more for each second that poses are chained …
+  static constexpr double kSigmas = 4.0;      // … and so many standard deviations of both depths
+  static constexpr double kMostCame = 0.6;    // share of the surfaces: people hide half of a room, rarely more
+  static constexpr double kSettled_s = 2.2;   // what was there so long ago is no newcomer …
+  static constexpr double kEarlyShare = 0.5;  // … nor, while less is remembered, this share of it ago
+  static constexpr float kFreeSpaceStaticPrior = 0.05f;  // as after some frames of motion
+  static constexpr int kSpreadCells = 12;                // half of an image's width
   static constexpr double kNearest_m = 0.1;
 
   /// 1: a view of the earlier half of what is remembered saw it in its place.
@@ -99,8 +100,8 @@ class SpaceSearch {
   }
 
   /// A cell that no view knows takes the majority's side of those that adjoin it, round by round.
-  static void spread_distrust(float step_px, double focal_px, const SeenEarly& seen_early, Matches& matches,
-                              Workspace& workspace) {
+  static void spread_to_unseen(float step_px, double focal_px, const SeenEarly& seen_early, Matches& matches,
+                               Workspace& workspace) {
     const span<SurfaceCell> cells = matches.past_observations.surfaces;
     if (cells.empty()) return;
     const Workspace::Scope scope(workspace);
@@ -109,7 +110,9 @@ class SpaceSearch {
     const span<Side> side = workspace.take<Side>(cells.size());
     const span<Side> next = workspace.take<Side>(cells.size());
     for (std::size_t s = 0; s < cells.size(); ++s)
-      side[s] = cells[s].space_trust < 1.0f ? Side::came : seen_early.cells[s] != 0 ? Side::stood : Side::nobody_knows;
+      side[s] = cells[s].space_static_prior < 1.0f ? Side::came
+                : seen_early.cells[s] != 0         ? Side::stood
+                                                   : Side::nobody_knows;
     if (std::find(side.begin(), side.end(), Side::came) == side.end()) return;  // nothing to hand on
     const auto majority = [&](const Vector2f& pixel, double depth_m) {
       int came = 0, stood = 0;
@@ -126,11 +129,12 @@ class SpaceSearch {
       std::copy(next.begin(), next.end(), side.begin());
     }
     for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-      if (matches.current.has_depth(i) && matches.space_trust[i] >= 1.0f && seen_early.corners[i] == 0 &&
+      if (matches.current.has_depth(i) && matches.space_static_prior[i] >= 1.0f && seen_early.corners[i] == 0 &&
           majority(matches.current.pixel[i], matches.current.depth_m[i]) == Side::came)
-        matches.space_trust[i] = kTrustOfWhatCame;
+        matches.space_static_prior[i] = kFreeSpaceStaticPrior;
     for (std::size_t s = 0; s < cells.size(); ++s)
-      if (side[s] == Side::came) cells[s].space_trust = std::min(cells[s].space_trust, kTrustOfWhatCame);
+      if (side[s] == Side::came)
+        cells[s].space_static_prior = std::min(cells[s].space_static_prior, kFreeSpaceStaticPrior);
   }
 
   /// Calls `visit(elapsed_s, look)` for each view that is old enough; `look(point)` tells what it saw in a place.

@@ -15,7 +15,7 @@
 
 namespace stillpoint {
 
-/// Weights from 0 (moves) to 1, by the verdicts of the features and the trust of the surfaces in each cell.
+/// Weights from 0 (moves) to 1, by the verdicts of the features and the static prior of the surfaces in each cell.
 class StaticWeights {
  public:
   /// @param labels  of all features, after the memory
@@ -26,9 +26,10 @@ class StaticWeights {
     rows_ = std::max(1, (image_height + kCell_px - 1) / kCell_px);
     refill(sum_, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
     for (std::size_t i = 0; i < matches.size(); ++i)
-      add(matches.current.pixel[i], labels[i].keep ? remembered.trust[i] : 0.0f, 1.0f);
+      add(matches.current.pixel[i], labels[i].keep ? remembered.static_prior[i] : 0.0f, 1.0f);
     const span<const SurfaceCell> cells = matches.past_observations.surfaces;
-    for (std::size_t s = 0; s < cells.size(); ++s) add(cells[s].pixel, remembered.surface_trust[s], kSurfaceVote);
+    for (std::size_t s = 0; s < cells.size(); ++s)
+      add(cells[s].pixel, remembered.surface_static_prior[s], kSurfaceVote);
   }
 
   /// 1 where nothing is known.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What nobody saw before belongs to the surface beside it.   Trust of some cells → trust of all
+// What nobody saw before belongs to the surface beside it.   Static prior of some cells → of all
 
 #include <algorithm>
 #include <cmath>

@@ -25,28 +25,28 @@
 
 namespace stillpoint {
 
-/// Log-odds add up over frames and forget; they give the verdicts. Suspicion is sticky, inherited by new features whose
-/// neighbours on the same surface are suspect by majority, and only lowers the say in the ego-motion: what moved once
-/// and stands still now will drag the pose when it starts again. A neighbour that is new itself knows little, and has
-/// little of a vote: where depth comes and goes, half of a person's corners are new in each frame. Surface cells hand
-/// it on too, where there is no corner: a sleeve that comes into view belongs to the man whose collar was seen moving.
-/// If suspicion drove verdicts, false positives would spread from surface to surface.
+/// Log-odds add up over frames and decay; they give the verdicts. The dynamic prior decays slowly: it is the memory
+/// that something moved here. New features inherit it from the majority of their neighbours on the same surface. It
+/// only lowers the weight in the ego-motion, because a person who stops may start again and would then drag the pose. A
+/// neighbour that is new itself knows little, and has little of a vote: where depth comes and goes, half of a person's
+/// corners are new in each frame. Surface cells inherit it, too: a sleeve that comes into view belongs to the man whose
+/// collar was seen moving. If the dynamic prior drove verdicts, false positives would spread from surface to surface.
 class EvidenceMemory {
  public:
   using Needs = Capabilities<capability::log_odds>;
 
   struct Options {
-    double log_odds_decay_s = 0.0935;  ///< time in which log-odds fall by e
-    double suspicion_rise_s = 0.065;   ///< a flicker at a silhouette leaves no lasting suspicion
-    double suspicion_decay_s = 4.0;    ///< time in which suspicion falls by e
+    double log_odds_decay_s = 0.0935;     ///< time in which log-odds fall by e
+    double dynamic_prior_rise_s = 0.065;  ///< a flicker at a silhouette leaves no lasting prior
+    double dynamic_prior_decay_s = 4.0;   ///< time in which the dynamic prior falls by e
   };
   Options options;
 
   /// Nats that evidence must be stronger for each factor e of frames that are fewer than at 30 Hz; no option in files.
-  /// On kitchen_static at 10 and 5 Hz 1.2 and 1.5 % of what stands were dropped without it, where 30 Hz has 0.5 %.
+  /// On kitchen_static at 10 and 5 Hz the false-positive rate was 1.2 and 1.5 % without it, at 30 Hz it is 0.5 %.
   float caution = 0.55f;
 
-  /// Looks every feature and surface cell up in what is remembered, and says what trust and log-odds they have.
+  /// Looks every feature and surface cell up in what is remembered, and says what static prior and log-odds they have.
   void recall(const Matches& matches, Remembered& remembered, Workspace& workspace) {
     refill(recalled_, matches.size(), Memory{});
     refill(recalled_of_cell_, matches.past_observations.surfaces.size(), Memory{});
@@ -55,7 +55,7 @@ class EvidenceMemory {
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;
     const float feature_px = matches.pixel_scale * kFeature_px;
     const NeighbourSteps steps(matches, neighbour_px, workspace);
-    suspicion_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.suspicion_decay_s));
+    dynamic_prior_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.dynamic_prior_decay_s));
     const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px}, workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
@@ -64,9 +64,9 @@ class EvidenceMemory {
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i]
                                                 : steps.before(here, depth_m, tolerance_m, matches.predicted[i]);
       recalled_[i] = look_up(points, pixel, depth_m, tolerance_m);
-      if (settled(matches.was_there[i], matches.space_trust[i])) recalled_[i].suspicion = 0;
+      if (settled(matches.was_there[i], matches.space_static_prior[i])) recalled_[i].dynamic_prior = 0;
       recalled_[i].by_map = evidence_of_map(pixel, depth_m, tolerance_m);
-      remembered.trust[i] = std::min(matches.space_trust[i], trust(recalled_[i].suspicion));
+      remembered.static_prior[i] = std::min(matches.space_static_prior[i], static_prior(recalled_[i].dynamic_prior));
       remembered.log_odds[i] = recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
@@ -74,8 +74,9 @@ class EvidenceMemory {
       const double depth_m = cell.point.z(), tolerance_m = kSameSurface.at(cell.depth_sigma_m);
       recalled_of_cell_[s] =
           look_up(points, steps.before(cell.pixel, depth_m, tolerance_m, cell.predicted), depth_m, tolerance_m);
-      if (settled(cell.was_there, cell.space_trust)) recalled_of_cell_[s].suspicion = 0;
-      remembered.surface_trust[s] = std::min(cell.space_trust, trust(recalled_of_cell_[s].suspicion));
+      if (settled(cell.was_there, cell.space_static_prior)) recalled_of_cell_[s].dynamic_prior = 0;
+      remembered.surface_static_prior[s] =
+          std::min(cell.space_static_prior, static_prior(recalled_of_cell_[s].dynamic_prior));
     }
   }
 
@@ -89,7 +90,7 @@ class EvidenceMemory {
     const auto gain = [&matches](double rise_s) {
       return static_cast<float>(exponential_share(matches.elapsed_s, rise_s));
     };
-    const float suspicion_gain = gain(options.suspicion_rise_s), certainty_gain = gain(kCertaintyRise_s);
+    const float dynamic_prior_gain = gain(options.dynamic_prior_rise_s), certainty_gain = gain(kCertaintyRise_s);
     const auto watched = [certainty_gain](Memory memory) {
       memory.certainty += certainty_gain * (1.0f - memory.certainty);
       return memory;
@@ -99,13 +100,13 @@ class EvidenceMemory {
       const Memory before = recalled_[i];
       Label& label = labels[i];
       const float now = label.log_odds;
-      const float least = -kMostLogOdds * (1.0f - kSuspectBoundLoss * before.suspicion);
+      const float least = -kMostLogOdds * (1.0f - kLowerBoundLoss * before.dynamic_prior);
       label.log_odds = std::clamp(persistence * before.log_odds + now + before.by_map - cautious, least, kMostLogOdds);
-      label.trust = observations.remembered.trust[i];
+      label.static_prior = observations.remembered.static_prior[i];
       decide(label, now);
       Memory after = watched(before);
       after.log_odds = label.log_odds;
-      if (label.log_odds > kSuspectAbove) after.suspicion += suspicion_gain * (1.0f - before.suspicion);
+      if (label.log_odds > kPriorRisesAbove) after.dynamic_prior += dynamic_prior_gain * (1.0f - before.dynamic_prior);
       remember(matches.current.pixel[i], matches.current.depth_m[i], after, true);
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
@@ -133,35 +134,37 @@ class EvidenceMemory {
   }
 
  private:
-  static constexpr float kMostLogOdds = 3.0f;   // log-odds are held within ± this, nats
-  static constexpr float kDropAbove = 0.0f;     // nats: even odds; the gate's rate sets how much evidence that takes
-  static constexpr float kSuspectAbove = 2.0f;  // log-odds that make a feature suspect, nats
-  static constexpr float kSuspectBoundLoss = 0.6f;  // of the lower bound, at full suspicion: it may start again
-  static constexpr float kMapEvidence = 6.0f;       // nats: several points of a map outweigh two frames that agree
-  static constexpr float kLeastTrust = 0.01f;       // say of a feature of full suspicion
-  static constexpr double kCertaintyRise_s = 1.0;   // time in which all but 1 / e is known of what is watched
-  static constexpr float kFeature_px = 15.0f;       // how far a feature may have moved and still be recognised
-  static constexpr float kNeighbour_px = 25.0f;     // neighbours that hand suspicion on
+  static constexpr float kMostLogOdds = 3.0f;      // log-odds are held within ± this, nats
+  static constexpr float kDropAbove = 0.0f;        // nats: even odds; the gate's rate sets how much evidence that takes
+  static constexpr float kPriorRisesAbove = 2.0f;  // log-odds above which the dynamic prior rises, nats
+  static constexpr float kLowerBoundLoss = 0.6f;   // of the lower bound, at a dynamic prior of 1: it may start again
+  static constexpr float kMapEvidence = 6.0f;      // nats: several points of a map outweigh two frames that agree
+  static constexpr float kLeastStaticPrior = 0.01f;  // static prior at a dynamic prior of 1
+  static constexpr double kCertaintyRise_s = 1.0;    // time in which all but 1 / e is known of what is watched
+  static constexpr float kFeature_px = 15.0f;        // how far a feature may have moved and still be recognised
+  static constexpr float kNeighbour_px = 25.0f;      // neighbours that hand the dynamic prior on
   static constexpr float kMinority =
-      0.25f;  // share of suspect neighbours below which none is handed on; above 1 − this, all
+      0.25f;  // dynamic prior of the neighbours below which none is handed on; above 1 − this, all
   static constexpr DepthTolerance kSameSurface{0.06};
   static constexpr double kUsualInterval_s = 1.0 / 30.0;
 
   struct Memory {
     float log_odds = 0;
-    float suspicion = 0;  ///< 0 to 1
-    float by_map = 0;     ///< nats, of a host's map
-    float certainty = 0;  ///< of the suspicion, 0 to 1
+    float dynamic_prior = 0;  ///< 0 to 1
+    float by_map = 0;         ///< nats, of a host's map
+    float certainty = 0;      ///< of the dynamic prior, 0 to 1
   };
 
   void remember(const Vector2f& pixel, double depth_m, const Memory& memory, bool is_feature) {
     pixel_.push_back(pixel);
     remembered_.push_back(
-        {pixel, static_cast<float>(depth_m), memory.log_odds, memory.suspicion, is_feature, memory.certainty});
+        {pixel, static_cast<float>(depth_m), memory.log_odds, memory.dynamic_prior, is_feature, memory.certainty});
   }
 
-  /// What two views of seconds ago saw in its place, and none saw through, has stood.
-  static bool settled(std::uint8_t was_there, float trust) noexcept { return was_there >= 2 && trust >= 1.0f; }
+  /// Two views of seconds ago saw it in its place, and none saw through: it is static.
+  static bool settled(std::uint8_t was_there, float space_static_prior) noexcept {
+    return was_there >= 2 && space_static_prior >= 1.0f;
+  }
 
   /// At a low rate of frames less evidence is averaged, and its noise is larger: 1 / (1 − persistence) frames count.
   /// The gate's level is for 30 Hz.
@@ -170,7 +173,7 @@ class EvidenceMemory {
     return std::max(0.0f, caution * std::log((1.0f - persistence) / (1.0f - usual)));
   }
 
-  static float trust(float suspicion) noexcept { return 1.0f - (1.0f - kLeastTrust) * suspicion; }
+  static float static_prior(float dynamic_prior) noexcept { return 1.0f - (1.0f - kLeastStaticPrior) * dynamic_prior; }
 
   Memory look_up(const RememberedPoints& points, const Vector2f& pixel, double depth_m, double tolerance_m) const {
     const RememberedPoints::Sums near =
@@ -179,8 +182,8 @@ class EvidenceMemory {
     if (near.feature_weight > 0) memory.log_odds = near.log_odds / near.feature_weight;
     if (near.asked > 0) memory.certainty = near.votes / near.asked;
     if (near.votes > 0) {
-      const float majority = (near.suspicion / near.votes - kMinority) / (1 - 2 * kMinority);
-      memory.suspicion = suspicion_left_ * std::clamp(majority, 0.0f, 1.0f);
+      const float majority = (near.dynamic_prior / near.votes - kMinority) / (1 - 2 * kMinority);
+      memory.dynamic_prior = dynamic_prior_left_ * std::clamp(majority, 0.0f, 1.0f);
     }
     return memory;
   }
@@ -208,7 +211,7 @@ class EvidenceMemory {
       label.reason = label.reason == Reason::consistent ? Reason::inconsistent : Reason::neighbours;
   }
 
-  float suspicion_left_ = 1.0f;  // of what was remembered one frame ago
+  float dynamic_prior_left_ = 1.0f;  // of what was remembered one frame ago
   // Of the last frame, its features before its surface cells.
   std::vector<Vector2f> pixel_;
   std::vector<RememberedPoint> remembered_;
@@ -219,8 +222,8 @@ class EvidenceMemory {
 template <class Visit>
 void each_option(EvidenceMemory& stage, Visit& visit) {
   visit("log_odds_decay_s", stage.options.log_odds_decay_s, OptionRange{0, 3600});
-  visit("suspicion_rise_s", stage.options.suspicion_rise_s, OptionRange{0, 3600});
-  visit("suspicion_decay_s", stage.options.suspicion_decay_s, OptionRange{0, 3600});
+  visit("dynamic_prior_rise_s", stage.options.dynamic_prior_rise_s, OptionRange{0, 3600});
+  visit("dynamic_prior_decay_s", stage.options.dynamic_prior_decay_s, OptionRange{0, 3600});
   if constexpr (sees_code_only<Visit>::value) visit("caution", stage.caution, OptionRange{0, 10});
 }
 

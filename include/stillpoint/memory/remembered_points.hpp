@@ -18,16 +18,16 @@ namespace stillpoint {
 /// A feature or a surface cell of the last frame.
 struct RememberedPoint {
   Vector2f pixel = Vector2f::Zero();
-  float depth_m = 0;       ///< 0 none
-  float log_odds = 0;      ///< of moving
-  float suspicion = 0;     ///< 0 to 1
-  bool is_feature = true;  ///< a surface cell has no log-odds
-  float certainty = 1;     ///< 0 to 1: how much is known of its suspicion; so much counts its vote
+  float depth_m = 0;        ///< 0 none
+  float log_odds = 0;       ///< of moving
+  float dynamic_prior = 0;  ///< 0 to 1
+  bool is_feature = true;   ///< a surface cell has no log-odds
+  float certainty = 1;      ///< 0 to 1: how much is known of its dynamic prior; so much counts its vote
 };
 
 /// How the remembered points around a place are weighed.
 struct NeighbourWeights {
-  float reach_px = 25.0f;    ///< those within have a vote in the suspicion
+  float reach_px = 25.0f;    ///< those within have a vote in the dynamic prior
   float feature_px = 15.0f;  ///< those within may be the same feature
 };
 
@@ -37,8 +37,8 @@ class RememberedPoints {
   /// Weighted sums over what is near a place.
   struct Sums {
     float feature_weight = 0, log_odds = 0;
-    float votes = 0, suspicion = 0;  ///< by certainty
-    float asked = 0;                 ///< what the votes would be if all were certain
+    float votes = 0, dynamic_prior = 0;  ///< by certainty
+    float asked = 0;                     ///< what the votes would be if all were certain
   };
 
   RememberedPoints(span<const Vector2f> pixels, span<const RememberedPoint> points, const NeighbourWeights& weights,
@@ -50,7 +50,7 @@ class RememberedPoints {
         depth_m_(workspace.take<float>(padded())),
         has_depth_(workspace.take<float>(padded())),
         log_odds_(workspace.take<float>(padded())),
-        suspicion_(workspace.take<float>(padded())),
+        dynamic_prior_(workspace.take<float>(padded())),
         is_feature_(workspace.take<float>(padded())),
         certainty_(workspace.take<float>(padded())) {
     for (std::size_t rank = 0; rank < grid_.size(); ++rank) {
@@ -60,7 +60,7 @@ class RememberedPoints {
       depth_m_[rank] = point.depth_m;
       has_depth_[rank] = point.depth_m > 0 ? 1.0f : 0.0f;
       log_odds_[rank] = point.log_odds;
-      suspicion_[rank] = point.suspicion;
+      dynamic_prior_[rank] = point.dynamic_prior;
       is_feature_[rank] = point.is_feature ? 1.0f : 0.0f;
       certainty_[rank] = point.certainty;
     }
@@ -77,7 +77,7 @@ class RememberedPoints {
     constexpr float kOtherKind = 0.2f, kVoteOfOtherKind = 0.02f;
     const float has_depth = depth_m > 0 ? 1.0f : 0.0f;
     const Four lane = {0.0f, 1.0f, 2.0f, 3.0f};
-    Four feature_weight = none, log_odds = none, votes = none, suspicion = none, asked = none;
+    Four feature_weight = none, log_odds = none, votes = none, dynamic_prior = none, asked = none;
     // Runs first, sums later: compilers do not inline a visitor of this size, and then keep its sums in memory.
     std::array<Run, kMostRuns> runs;
     std::size_t count = 0;
@@ -98,7 +98,7 @@ class RememberedPoints {
         const Four vote = say * four(certainty_, rank);
         asked += say;
         votes += vote;
-        suspicion += vote * four(suspicion_, rank);
+        dynamic_prior += vote * four(dynamic_prior_, rank);
         const Four near = larger(1.0f - squared * per_feature, none);
         const Four kind = where(alike, all, kOtherKind * all);
         const Four weight = where(counts, near * near * four(is_feature_, rank) * kind, none);
@@ -106,7 +106,7 @@ class RememberedPoints {
         log_odds += weight * four(log_odds_, rank);
       }
     }
-    return {sum_of(feature_weight), sum_of(log_odds), sum_of(votes), sum_of(suspicion), sum_of(asked)};
+    return {sum_of(feature_weight), sum_of(log_odds), sum_of(votes), sum_of(dynamic_prior), sum_of(asked)};
   }
 
  private:
@@ -122,7 +122,7 @@ class RememberedPoints {
 
   NeighbourWeights weights_;
   PixelGrid grid_;
-  span<float> x_, y_, depth_m_, has_depth_, log_odds_, suspicion_, is_feature_, certainty_;  // by rank
+  span<float> x_, y_, depth_m_, has_depth_, log_odds_, dynamic_prior_, is_feature_, certainty_;  // by rank
 };
 
 }  // namespace stillpoint

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What moves, where, and how?   Dynamic features → objects with an identity, a motion and a velocity.
+// Which objects move, where, and how?   Dynamic features → objects with an identity, a motion and a velocity.
 
 #include <algorithm>
 #include <cmath>

@@ -58,7 +58,7 @@ class PredictedPoints {
         const Vector3d expected = object.velocity_at(point);
         const double apart_m_s = velocity->difference(expected, point), misfit = apart_m_s / object.limbs_m_s();
         if (!(misfit < 1.0)) return;
-        const bool moves = expected.norm() > kMoves_m_s;  // what stands before or behind it is not of it
+        const bool moves = expected.norm() > kMoves_m_s;  // static features before or behind it are not of it
         if (moves && !(apart_m_s < velocity->difference(Vector3d::Zero(), point))) return;
         cost += 4.0 * misfit * misfit;
       }

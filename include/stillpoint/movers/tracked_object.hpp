@@ -56,7 +56,7 @@ struct TrackedObject {
   Matrix3d mean_turn_covariance = Matrix3d::Identity();
   Vector3d path = Vector3d::Zero();  ///< the way gone since it was seen first, metres
   Matrix3d path_covariance = Matrix3d::Zero();
-  Vector3d size_m = Vector3d::Zero();  ///< its extent as it is remembered: what stands still or is covered counts
+  Vector3d size_m = Vector3d::Zero();  ///< its extent as it is remembered: parts at rest or covered count
   int seen_frames = 0;
   std::size_t members = 0;          ///< features in the last frame in which it was seen
   double slow_s = 0;                ///< for how long it has hardly moved

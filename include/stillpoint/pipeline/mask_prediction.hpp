@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where will the coming frame show what moves?   The last verdicts, carried on: for a host that spends its feature
+// Where will the coming frame show moving objects?   The last verdicts, carried on: for a host that spends its feature
 // budget before it can ask about features.
 
 #include <algorithm>
@@ -57,8 +57,8 @@ class MaskPrediction {
     }
   }
 
-  /// Objects that are followed carry their features: what moves as one body goes as its object does, by the motion of
-  /// all of its features in place of each one's match; a limb goes so where nothing beside it was followed.
+  /// Objects that are followed carry their features: features of one body move as their object does, by the motion of
+  /// all of its features in place of each one's match; those of a limb do so where nothing beside it was followed.
   template <class Camera>
   void follow(const Movers& movers, const Matches& matches, const Camera& camera) {
     if (seen_.empty()) return;

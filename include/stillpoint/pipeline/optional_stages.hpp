@@ -140,7 +140,7 @@ void refine([[maybe_unused]] EgoMotion& ego_motion, [[maybe_unused]] Observation
       ego_motion.refine(observations, camera, expected, motion, workspace);
 }
 
-/// A gate may learn from what is known to stand, between classifier and memory; a matcher from what moves, after it.
+/// A gate may learn from static features, between classifier and memory; a matcher from dynamic ones, after it.
 template <class Policy>
 void learn(Policy& policy, const Observations& observations, span<const Label> labels) {
   if constexpr (learns<Policy>::value) policy.learn(observations, labels);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where was space seen free?   Small depth images of the past seconds: what stands now where a camera saw through came
-// there. It needs neither a match nor texture.
+// Where was space seen free?   Small depth images of the past seconds: an object where a camera saw free space is a
+// newcomer. It needs neither a match nor texture.
 
 #include <algorithm>
 #include <cmath>

@@ -32,6 +32,7 @@ class UseCheck {
     if (status == Status::time_gap || status == Status::out_of_order) return;
     nothing_fits_.count(!judged(status) && status != Status::no_keypoints);
     count_places(frame.image().width, frame.image().height, pixels);
+    depth_shape_differs_.count(!frame.depth.empty() && differ_in_shape(frame.image(), frame.depth.image));
     if (frames_++ % kLookEvery == 0) {
       const DepthOrientation orientation = DepthOrientation::of(frame);
       if (orientation.tells()) depth_turned_over_.count(orientation.is_wrong());
@@ -58,6 +59,7 @@ class UseCheck {
     const auto add = [&found](const Doubt& doubt, Warning warning) {
       if (doubt.is_strong()) found.add(warning);
     };
+    add(depth_shape_differs_, Warning::depth_shape_differs);
     add(depth_turned_over_, Warning::depth_turned_over);
     add(depth_too_near_, Warning::depth_too_near);
     add(motion_too_fast_, Warning::motion_too_fast);
@@ -93,6 +95,8 @@ class UseCheck {
       return "Half of the keypoints are outside of the image: are they of another resolution?";
     if (warnings.has(Warning::keypoints_in_one_quarter))
       return "All keypoints are in one quarter of the image: are they of a smaller one?";
+    if (warnings.has(Warning::depth_shape_differs))
+      return "The depth image has another shape than the image: is it aligned to the image?";
     if (warnings.has(Warning::depth_turned_over))
       return "The depth image fits better when it is mirrored or turned over: is it that of this image?";
     if (warnings.has(Warning::scale_differs))
@@ -115,6 +119,7 @@ class UseCheck {
   static constexpr double kFast_m = 2.0;        // 60 m/s at 30 Hz, 20 m/s at 10 Hz
   static constexpr double kOtherScale = 2.0;    // 5000 for 1000 is 5
   static constexpr double kLeastStep_m = 0.01;  // smaller ones are noise
+  static constexpr double kSameShape = 0.01;    // share: a row lost to rounding when an image is made smaller
   static constexpr int kMany = 20;              // frames in a row that look wrong
   static constexpr int kLookEvery = 4;          // frame, at the depth image as a whole
   static constexpr std::size_t kFewest = 30;    // keypoints that say something
@@ -129,6 +134,12 @@ class UseCheck {
    private:
     int many_, frames_ = 0;
   };
+
+  static bool differ_in_shape(const ImageView& image, const ImageView& depth) noexcept {
+    const double shape =
+        static_cast<double>(depth.width) * image.height / (static_cast<double>(depth.height) * image.width);
+    return !(std::abs(shape - 1.0) <= kSameShape);
+  }
 
   void count_places(int width, int height, span<const Vector2f> pixels) noexcept {
     if (pixels.size() < kFewest) return;
@@ -156,7 +167,7 @@ class UseCheck {
   }
 
   Doubt depth_too_near_{kMany}, motion_too_fast_{kMany}, scale_differs_{kMany}, in_one_quarter_{kMany}, outside_{kMany},
-      times_far_apart_{kMany}, nothing_fits_{kMany};
+      times_far_apart_{kMany}, nothing_fits_{kMany}, depth_shape_differs_{kMany};
   Doubt depth_turned_over_{kMany / kLookEvery};
   unsigned frames_ = 0;
 };

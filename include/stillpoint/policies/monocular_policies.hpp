@@ -16,7 +16,7 @@
 namespace stillpoint {
 
 /// For one camera without depth. Verdicts are by epipolar geometry between neighbouring frames and add up over time:
-/// what moves along its epipolar line is not found, unless a detector's box covers it. Nothing is in metres.
+/// a feature that moves along its epipolar line is not found, unless a detector's box covers it. Nothing is in metres.
 struct MonocularPolicies : DefaultPolicies {
   using DepthLookup = NoDepth;
   using Matcher = LucasKanade;

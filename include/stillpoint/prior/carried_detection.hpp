@@ -35,7 +35,7 @@ class CarriedDetection {
 
   CarriedDetection(const Detection& seen, double timestamp_s) : detection(seen), seen_s(timestamp_s) {}
 
-  /// Its own speed in the image, beyond what the camera's motion gives a static object; pixels a second.
+  /// Its own speed in the image, beyond what the camera's motion gives a static object; pixels per second.
   const Vector2f& own_velocity_px_s() const noexcept { return own_px_s_; }
 
   bool has_depth_range() const noexcept { return std::isfinite(detection.farthest_m); }

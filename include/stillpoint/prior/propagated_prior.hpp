@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
@@ -80,7 +82,7 @@ class PropagatedPrior : public ForegroundPrior {
     if (images_.empty()) return;
     images_.reserve(matches.size());
     ImageMotion& image = images_.newest();
-    // Frames without keypoints lie between: these steps are a part of the way.
+    // Frames without keypoints came between: the steps of the features reach back over all of them.
     if (motion.reference_timestamp_s > image.timestamp_s - 0.99 * image.elapsed_s) return;
     image.set_steps(matches);
     if (motion.usable()) image.set_camera_motion(motion, camera);
@@ -139,32 +141,41 @@ class PropagatedPrior : public ForegroundPrior {
     forget(images_.newest());
   }
 
+  struct Overlap {
+    float of_union;  ///< intersection over union
+    std::uint32_t fresh, object;
+  };
+
   /// Pairs what was seen with what is carried, the best overlap first. What is left over is new, or was missed.
   void merge(double answer_s) {
     const Workspace::Scope scope(workspace_);
     const span<char> is_taken = workspace_.take<char>(fresh_.size()), is_seen = workspace_.take<char>(objects_.size());
-    for (;;) {
-      float best = kLeastOverlap;
-      std::size_t best_fresh = fresh_.size(), best_thing = 0;
-      for (std::size_t f = 0; f < fresh_.size(); ++f) {
-        for (std::size_t t = 0; t < objects_.size() && !is_taken[f]; ++t) {
-          if (is_seen[t] || fresh_[f].detection.mobility != objects_[t].detection.mobility) continue;
-          const float overlap = intersection_over_union(fresh_[f].detection.box, objects_[t].detection.box);
-          if (!(overlap > best)) continue;
-          best = overlap;
-          best_fresh = f;
-          best_thing = t;
-        }
-      }
-      if (best_fresh == fresh_.size()) break;
-      is_taken[best_fresh] = is_seen[best_thing] = 1;
-      objects_[best_thing].refresh(fresh_[best_fresh]);
+    find_overlaps();
+    for (const Overlap& pair : overlaps_) {
+      if (is_taken[pair.fresh] || is_seen[pair.object]) continue;
+      is_taken[pair.fresh] = is_seen[pair.object] = 1;
+      objects_[pair.object].refresh(fresh_[pair.fresh]);
     }
     for (std::size_t t = 0; t < is_seen.size(); ++t)
       if (!is_seen[t]) ++objects_[t].missed;
     for (std::size_t f = 0; f < fresh_.size(); ++f)
       if (!is_taken[f]) objects_.push_back(fresh_[f]);
     last_answer_s_ = answer_s;
+  }
+
+  /// All pairs that may be the same object, the best overlap first.
+  void find_overlaps() {
+    overlaps_.clear();
+    for (std::uint32_t f = 0; f < fresh_.size(); ++f) {
+      for (std::uint32_t t = 0; t < objects_.size(); ++t) {
+        if (fresh_[f].detection.mobility != objects_[t].detection.mobility) continue;
+        const float overlap = intersection_over_union(fresh_[f].detection.box, objects_[t].detection.box);
+        if (overlap > kLeastOverlap) overlaps_.push_back({overlap, f, t});
+      }
+    }
+    std::sort(overlaps_.begin(), overlaps_.end(), [](const Overlap& a, const Overlap& b) {
+      return std::tie(b.of_union, a.fresh, a.object) < std::tie(a.of_union, b.fresh, b.object);
+    });
   }
 
   void forget(const ImageMotion& image) {
@@ -183,6 +194,7 @@ class PropagatedPrior : public ForegroundPrior {
 
   ImageMotions images_;
   std::vector<CarriedDetection> objects_, fresh_;
+  std::vector<Overlap> overlaps_;
   bool is_answered_ = false;  // even if `detections` is empty
   double last_answer_s_ = -std::numeric_limits<double>::infinity();
   Workspace workspace_;

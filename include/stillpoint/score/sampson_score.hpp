@@ -31,12 +31,12 @@ class SampsonScore {
   using Provides = Capabilities<capability::log_likelihoods>;
 
   struct Options {
-    double least_pixel_sigma = 0.5;   ///< of a match, pixels; it is measured on the trusted matches of each frame
+    double least_pixel_sigma = 0.5;   ///< of a match, pixels; measured in each frame on likely static matches
     double most_pixel_sigma = 1.0;    ///< where it is more, the motion does not explain the frame: nothing is scored
     double turned_parallax_px = 1.0;  ///< what a step that was too small for a direction may still move a near point
     double most_evidence = 8.0;       ///< −log of the share of bad matches: no pair of frames decides alone
     double expected = 0.5;            ///< what a static point scores on average: half a squared sigma
-    float least_trust = 0.5f;         ///< of a match by which noise is measured
+    float least_static_prior = 0.5f;  ///< of a match by which noise is measured
   };
   Options options;
 
@@ -47,7 +47,7 @@ class SampsonScore {
     const Geometry<Camera> geometry(motion, camera);
     distances_.clear();
     for (std::size_t i = 0; i < matches.size(); ++i)
-      if (matches.matched(i) && observations.remembered.trust[i] >= options.least_trust)
+      if (matches.matched(i) && observations.remembered.static_prior[i] >= options.least_static_prior)
         distances_.push_back(geometry.distance_px(matches, i));
     if (distances_.size() < kFewestMatches) return;
     const double measured_px = kMadToSigma * median_in_place(span<double>(distances_));
@@ -144,7 +144,7 @@ void each_option(SampsonScore& stage, Visit& visit) {
   visit("turned_parallax_px", stage.options.turned_parallax_px, OptionRange{0, 100});
   visit("most_evidence", stage.options.most_evidence, OptionRange{0, 100});
   visit("expected", stage.options.expected, OptionRange{0, 100});
-  visit("least_trust", stage.options.least_trust, OptionRange{0, 1});
+  visit("least_static_prior", stage.options.least_static_prior, OptionRange{0, 1});
 }
 
 }  // namespace stillpoint

@@ -53,7 +53,7 @@ class DepthSensor {
       std::uint16_t* const out = depth.row<std::uint16_t>(v);
       int shadow_px = 0;
       float shadowed_m = 0.0f;
-      for (int u = exact.width - 1; u >= 0; --u) {  // from the right: shadows fall to the left of nearer things
+      for (int u = exact.width - 1; u >= 0; --u) {  // from the right: shadows fall to the left of nearer objects
         const std::ptrdiff_t at = row_begin + u;
         float z = row[u];
         bool lost = !(z > 0.0f);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// A scene in which what moves fills half of the view: an odometry without the filter follows it.
+// A scene in which moving objects fill half of the view: an odometry without the filter follows them.
 
 #include <cstdint>
 #include <utility>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Where a thing is at a time: way points with times, and how to get from one to the next. Used for movers and cameras.
+// Where an object is at a time: way points with times, and how to get from one to the next. Used for movers and
+// cameras.
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 // Scenes in the room with the difficulties of recordings: a realistic depth sensor, few frames per second, static
-// objects beside what moves, slow movers. The street is in street.hpp.
+// objects beside moving ones, slow movers. The street is in street.hpp.
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What there is: a room with furniture, things that move on paths, a camera, and how good its sensors are.
+// What there is: a room with furniture, objects that move on paths, a camera, and how good its sensors are.
 //
 // The world: x right, y down, z ahead, metres; the floor is y = 0. Times are seconds since the first frame.
 
@@ -101,7 +101,7 @@ struct Sensor {
   double image_sigma = 2.0;       ///< gaussian noise, grey levels, the same on all three channels of a pixel
   double exposure_flicker = 0.0;  ///< largest change of brightness of a frame, as a share of 1
   bool depth_noise = true;        ///< axial noise of `KinectNoise`, of which disparity steps are a part
-  bool depth_holes = true;        ///< ragged rims, shadows left of nearer things, nothing at grazing angles
+  bool depth_holes = true;        ///< ragged rims, shadows left of nearer objects, nothing at grazing angles
   double depth_factor = 5000.0;   ///< units of the 16-bit depth per metre
   double nearest_m = 0.4;         ///< no depth below, unless `depth_holes` is off
   double farthest_m = 8.0;        ///< none beyond

@@ -145,16 +145,16 @@ inline Scene pushed_box(const SceneOptions& options = {}) {
   return scene;
 }
 
-/// A box creeps sideways, by default at 2 cm/s: less than a pixel a frame. With the default `MotionRule` its pixels
-/// count as at rest (128); lengthen `window_frames` to have them 255.
+/// A box moves slowly sideways, by default at 2 cm/s: less than a pixel per frame. With the default `MotionRule` its
+/// pixels count as at rest (128); lengthen `window_frames` to have them 255.
 inline Scene slow_mover(const SceneOptions& options = {}, double metres_per_s = 0.02) {
   Scene scene = detail::stage("slow_mover", options);
   scene.camera_path = detail::wandering_camera(options);
   const double seconds = options.frames / options.frame_rate_hz;
-  const Path creep = PathBuilder({-0.25, 0, 1.15}, 0.3)
-                         .slide_to({-0.25 + metres_per_s * seconds, 0, 1.15}, metres_per_s)
-                         .path(Blend::linear);
-  scene.movers.push_back(printed_box(creep, {0.30, 0.35, 0.22}, options.seed + 20));
+  const Path path = PathBuilder({-0.25, 0, 1.15}, 0.3)
+                        .slide_to({-0.25 + metres_per_s * seconds, 0, 1.15}, metres_per_s)
+                        .path(Blend::linear);
+  scene.movers.push_back(printed_box(path, {0.30, 0.35, 0.22}, options.seed + 20));
   return scene;
 }
 

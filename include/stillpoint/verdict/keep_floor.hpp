@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How much must be left?   A tracker that gets nothing is lost: the least suspect dynamic features are kept where too
-// few would be.
+// How much must be left?   A tracker that gets nothing is lost: where too few features would be left, the least dynamic
+// ones are kept.
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The stillpoint authors
 # SPDX-License-Identifier: MIT
-"""A RealSense D400, the filter, and RTAB-Map on depth without what moves."""
+"""A RealSense D400, the filter, and RTAB-Map on depth without moving objects."""
 
 from launch import LaunchDescription
 from launch_ros.actions import ComposableNodeContainer, Node

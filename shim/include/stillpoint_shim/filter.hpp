@@ -60,7 +60,8 @@ class Filter {
   /// The answer for the last frame.
   const Result& result() const { return result_; }
 
-  /// How much each feature of the last frame may say in an estimate, 0 to 1: one minus the probability that it moves.
+  /// How much each feature of the last frame may say in an estimate, 0 to 1: the probability
+  /// that it is static, and less where something moved before (`stillpoint::weights`).
   void weights(std::vector<float>& weights) const {
     weights.resize(result_.keep.size());
     detail::copy_weights(*engine_, weights.data(), weights.size());
@@ -71,10 +72,10 @@ class Filter {
   void mask(cv::Mat& mask, int margin_px = 12) const { detail::paint_mask(*engine_, margin_px, pixels_of(mask)); }
 
   /// Paints where the coming frame should be looked at, as CV_8UC1 of the camera's size: 255 keeps, 0 drops. For a host
-  /// that extracts features under a mask, so that its budget goes to what stands still; all of it is 255 where the last
+  /// that extracts features under a mask, so that its budget goes to static features; all of it is 255 where the last
   /// frame was not judged. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
-  /// @param margin_px    more is dropped around what moves; 8 in all measured figures (docs/adopting.md)
+  /// @param margin_px    more is dropped around moving objects; 8 in all measured figures (docs/adopting.md)
   void predicted_keep_mask(double timestamp_s, cv::Mat& mask, int margin_px = 8) const {
     detail::paint_predicted_keep_mask(*engine_, timestamp_s, margin_px, pixels_of(mask));
   }

@@ -52,11 +52,11 @@ struct Settings {
   DepthNoise depth_noise = DepthNoise::kinect;
   double stereo_baseline_m = 0;            ///< for `DepthNoise::stereo` alone
   double stereo_disparity_sigma_px = 0.3;  ///< likewise
-  double false_positive_rate = 0.01;       ///< share of what stands still that may be dropped, 1e-6 to 0.5
+  double false_positive_rate = 0.01;       ///< share of the static features that may be dropped, 1e-6 to 0.5
   int fewest_features = 30;                ///< so many are left whatever moves; ORB-SLAM wants more than 500 to start
 };
 
-/// What is known of a thing's class.
+/// What is known of an object's class.
 enum class Mobility : int {
   unknown,  ///< its box says nothing
   fixed,    ///< wall, table

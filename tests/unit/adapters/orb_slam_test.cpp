@@ -167,7 +167,7 @@ TEST(OrbSlam, AWeightMultipliesTheInformationAndNeverTakesAllOfIt) {
   EXPECT_EQ(orb_slam::weighted_inv_sigma2(0.5f, weights, 2), 0.5f * 0.05f);
   EXPECT_EQ(orb_slam::weighted_inv_sigma2(0.5f, weights, 3), 0.5f * 0.05f);
   EXPECT_EQ(orb_slam::weighted_inv_sigma2(0.5f, weights, 4), 0.5f);
-  EXPECT_EQ(orb_slam::weighted_inv_sigma2(0.5, std::vector<float>(), 17), 0.5) << "no weights: all are trusted";
+  EXPECT_EQ(orb_slam::weighted_inv_sigma2(0.5, std::vector<float>(), 17), 0.5) << "no weights: all are 1";
 }
 
 TEST(OrbSlam, TheCameraIsThatOfTheConstructorsArguments) {

@@ -214,7 +214,7 @@ TEST_F(SurfaceClustersTest, AFeatureWithABorrowedDepthIsOneOfItsSurface) {
 }
 
 // The same feature beside 60 others that move, half of them without depth, as in depth images with holes: nobody is
-// less suspect for a depth that is missing everywhere.
+// less dynamic for a depth that is missing everywhere.
 TEST_F(SurfaceClustersTest, MissingDepthSaysNothingWhereMoversMissItToo) {
   for (int i = 0; i < 30; ++i) add({100, 100}, 2.0, 8.0f);
   for (int i = 0; i < 30; ++i) add({100, 100}, 0.0, kNaN);

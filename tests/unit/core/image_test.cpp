@@ -118,5 +118,15 @@ TEST(GrayFromBgr, ReadsRowsWithGaps) {
     for (int u = 0; u < 11; ++u) ASSERT_EQ(gray.view().row<std::uint8_t>(v)[u], 11);
 }
 
+TEST(ImageView, OfOpenCVsTypedImages) {
+  const cv::Mat1b gray(48, 64, std::uint8_t{100});
+  const cv::Mat1w depth(48, 64, std::uint16_t{2000});
+  EXPECT_EQ(ImageView(gray).format, PixelFormat::gray8);
+  EXPECT_EQ(ImageView(gray).data, gray.data);
+  EXPECT_EQ(ImageView(depth).format, PixelFormat::depth16);
+  EXPECT_EQ(ImageView(cv::Mat3b(4, 4)).format, PixelFormat::bgr8);
+  EXPECT_EQ(ImageView(cv::Mat1d(4, 4)).format, PixelFormat::unsupported);
+}
+
 }  // namespace
 }  // namespace stillpoint::image_test

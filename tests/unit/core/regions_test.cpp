@@ -95,6 +95,14 @@ TEST(Regions, TheSmallestDynamicRegionOwnsTheFeature) {
   EXPECT_EQ(located({child, child}, pixels).of_feature[0].dynamic_region, 0) << "of two alike the first";
 }
 
+// Raw output of a network without a threshold: more boxes than 16 bits count, each smaller than the last.
+TEST(Regions, MayBeMoreThanSixteenBitsCount) {
+  std::vector<Detection> many;
+  for (int k = 0; k < 33000; ++k)
+    many.push_back({{0, 0, 100.0f - 0.001f * static_cast<float>(k), 100}, Mobility::dynamic});
+  EXPECT_EQ(located(many, {{50, 50}}).of_feature[0].dynamic_region, 32999);
+}
+
 TEST(Regions, NothingHoldsWhatIsNoPixel) {
   const Regions regions = located({{kBox, Mobility::dynamic, 1.0f}, {kBox, Mobility::fixed, 1.0f}},
                                   {{kNaN, 40}, {kNaN, kNaN}, {kInfinity, 40}});

@@ -107,7 +107,7 @@ TEST(NoiseCalibration, WithoutDepthsTheAssumedModelStays) {
   EXPECT_EQ(found.frames, 0u);
 }
 
-TEST(NoiseCalibration, OnlyTrustedMatchesWithDepthAndMotionsCount) {
+TEST(NoiseCalibration, OnlyLikelyStaticMatchesWithDepthAndMotionsCount) {
   const Camera camera(500, 500, 319.5, 239.5, 640, 480);
   NoiseCalibration calibration;
   calibration.options.fewest_samples = 1;
@@ -120,7 +120,7 @@ TEST(NoiseCalibration, OnlyTrustedMatchesWithDepthAndMotionsCount) {
     matches.reference.set_depth(i, 2.0, 0.01, camera);
     matches.current.set_depth(i, 2.01, 0.01, camera);
   }
-  matches.space_trust[0] = 0.5f;
+  matches.space_static_prior[0] = 0.5f;
   matches.current.set_depth(1, 0.0, 0.01, camera);
   motion.status = Status::no_consensus;
   calibration.add(test::observations_of(matches), motion);

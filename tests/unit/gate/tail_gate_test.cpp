@@ -104,12 +104,12 @@ TEST(TailGate, SinksBackToThePriorAndNoLower) {
 
 TEST(TailGate, LearnsOnlyFromWhatIsKnownToStand) {
   TailGate learner = gate(0.01);
-  Frame moving(100, 100), suspect(100, 100), corners(100, 100);
+  Frame moving(100, 100), moved_before(100, 100), corners(100, 100);
   Frame few(49, 40);  // 50 are needed
   for (float& log_odds : moving.observations.remembered.log_odds) log_odds = -1.0f;
-  for (float& trust : suspect.observations.remembered.trust) trust = 0.9f;
+  for (float& prior : moved_before.observations.remembered.static_prior) prior = 0.9f;
   corners.observations.matches.host_count = 0;  // the matcher's own
-  for (Frame* frame : {&moving, &suspect, &corners, &few}) learner.learn(frame->observations, frame->labels);
+  for (Frame* frame : {&moving, &moved_before, &corners, &few}) learner.learn(frame->observations, frame->labels);
   EXPECT_EQ(learner.raised(), 0.0);
 }
 

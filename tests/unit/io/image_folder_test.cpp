@@ -98,7 +98,7 @@ TEST_F(ImageFolderTest, ARateOfTheCallersGoesBeforeNames) {
   EXPECT_FALSE(list.rate_is_assumed);
   EXPECT_EQ(list.images[1].timestamp_s, 0.25);
   EXPECT_EQ(error_of([&] { read_image_folder(left, 0.0); }),
-            "frame rate: found 0.000000, expected a positive number of images a second");
+            "frame rate: found 0.000000, expected a positive number of images per second");
 }
 
 TEST_F(ImageFolderTest, WhatIsNoFolderOfImagesIsNamed) {

@@ -23,7 +23,7 @@ class VideoSourceTest : public testing::Test {
  protected:
   VideoSourceTest() { cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT); }
 
-  /// Frames of one grey level each, 10 a second, by the writer that every OpenCV has.
+  /// Frames of one grey level each, 10 per second, by the writer that every OpenCV has.
   std::filesystem::path video(int frames) {
     const std::filesystem::path file = folder.path() / "video.avi";
     cv::VideoWriter writer(file.string(), cv::CAP_OPENCV_MJPEG, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'), 10.0,
@@ -65,7 +65,7 @@ TEST_F(VideoSourceTest, ARateOfTheCallersGoesBeforeTheFiles) {
     EXPECT_EQ(time_s, 0.25 * i);
   }
   EXPECT_EQ(error_of([&] { VideoSource(folder.path() / "video.avi", -1.0); }),
-            "frame rate: found -1.000000, expected a positive number of images a second");
+            "frame rate: found -1.000000, expected a positive number of images per second");
 }
 
 TEST_F(VideoSourceTest, AVideoThatBreaksOffIsNamed) {

@@ -70,8 +70,8 @@ class CoarseAlignmentTest : public testing::Test {
     image.pyramid.build(ImageView(shifted), 4);
   }
 
-  /// What lies between two columns of the reference frame is trusted this much, and dropped where not at all.
-  void trust(int left, int right, float much) {
+  /// Between two columns of the reference frame the static prior is `prior`; at 0 the features are dropped.
+  void set_prior(int left, int right, float prior) {
     const Camera& camera = sequence_.camera();
     std::vector<Vector2f> pixels;
     for (int v = 12; v < camera.height(); v += 24)
@@ -82,8 +82,8 @@ class CoarseAlignmentTest : public testing::Test {
     std::vector<Label> labels(pixels.size());
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const bool is_between = pixels[i].x() >= static_cast<float>(left) && pixels[i].x() < static_cast<float>(right);
-      labels[i].keep = !is_between || much > 0;
-      if (is_between) observations.remembered.trust[i] = much;
+      labels[i].keep = !is_between || prior > 0;
+      if (is_between) observations.remembered.static_prior[i] = prior;
     }
     alignment_.reference_weights.assign(observations, labels, camera.width(), camera.height());
   }
@@ -143,19 +143,19 @@ TEST_F(CoarseAlignmentTest, WhatMovesHasNoSay) {
   render(0, reference);
   const int left = kImageWidth / 4, width = 2 * kImageWidth / 5;
   shift_patch(left, width, current);
-  trust(left, left + width + kShift_px, 0.0f);
+  set_prior(left, left + width + kShift_px, 0.0f);
   EXPECT_LT(error_px(reference, current, Pose::Identity()), 1.0);
 }
 
 // A patch of 70 % of the width, of which half is believed to stand, has a weight of 0.7 / 2 and the room's 0.3. Squared
 // it is 0.7 / 4: the room wins.
-TEST_F(CoarseAlignmentTest, AreaDoesNotMakeUpForTrust) {
+TEST_F(CoarseAlignmentTest, AreaDoesNotMakeUpForTheStaticPrior) {
   Image reference, current;
   render(0, reference);
   const int left = kImageWidth / 8, width = 7 * kImageWidth / 10;
   shift_patch(left, width, current);
   EXPECT_GT(error_px(reference, current, Pose::Identity()), 0.5 * kShift_px) << "else the test asks nothing";
-  trust(left, left + width + kShift_px, 0.5f);
+  set_prior(left, left + width + kShift_px, 0.5f);
   EXPECT_LT(error_px(reference, current, Pose::Identity()), 1.0);
 }
 

@@ -54,7 +54,7 @@ TEST(HiddenBefore, WhatTheLastFrameShowsElsewhereMoves) {
   EXPECT_EQ(hidden({kUnlike, kUnlike, kUnlike}, kNearer), (Flags{false, false, false}));
 }
 
-// It creeps: the last frame is too near in time to show it, the oldest too far to find it.
+// It moves slowly: the last frame is too near in time to show it, the oldest too far to find it.
 TEST(HiddenBefore, WhatAFrameBetweenShowsElsewhereMoves) {
   EXPECT_EQ(hidden({kStands, kMoved, kUnlike}, kNearer), (Flags{false, false, false}));
 }

@@ -126,9 +126,9 @@ TEST(LucasKanade, NearTheBorderFeaturesAreMarked) {
   const MatchState expected[] = {MatchState::near_edge, MatchState::matched,   MatchState::near_edge,
                                  MatchState::matched,   MatchState::near_edge, MatchState::near_edge};
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(matches.state[i], expected[i]) << i;
-  LucasKanade trusting;
-  trusting.options.border_px = 0;
-  EXPECT_EQ(match(trusting, frame(image, 1.0), frame(image, 1.1), {{2, 60}}).state[0], MatchState::matched);
+  LucasKanade near_border;
+  near_border.options.border_px = 0;
+  EXPECT_EQ(match(near_border, frame(image, 1.0), frame(image, 1.1), {{2, 60}}).state[0], MatchState::matched);
 }
 
 TEST(LucasKanade, NearTheBorderOfTheReferenceIsMarkedToo) {

@@ -174,7 +174,7 @@ TEST_F(ChainedTracksTest, SurfacesThatCameHaveLittleSayInTheMotion) {
   int came = 0, stood = 0;
   for (const SurfaceCell& cell : matches_.past_observations.surfaces) {
     ++(cell.point.z() < 1.5 ? came : stood);
-    EXPECT_EQ(cell.space_trust < 0.5f, cell.point.z() < 1.5) << cell.pixel.transpose();
+    EXPECT_EQ(cell.space_static_prior < 0.5f, cell.point.z() < 1.5) << cell.pixel.transpose();
   }
   EXPECT_GT(came, 10);
   EXPECT_GT(stood, 10);

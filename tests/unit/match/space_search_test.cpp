@@ -79,7 +79,7 @@ class SpaceSearchTest : public testing::Test {
     return matches.past_observations.seen_through[0];
   }
 
-  /// Trust of a surface cell at `depth_m` beside `others` cells on the wall, and how often it was there.
+  /// Static prior of a surface cell at `depth_m` beside `others` cells on the wall, and how often it was there.
   SurfaceCell cell(double depth_m, int others) {
     Matches matches;
     matches.begin(std::vector<Vector2f>());
@@ -93,14 +93,13 @@ class SpaceSearchTest : public testing::Test {
       wall.point = camera_.back_project(wall.pixel.cast<double>(), 3.0);
       matches.past_observations.surfaces.push_back(wall);
     }
-    distrust(matches);
+    set_prior(matches);
     return matches.past_observations.surfaces[0];
   }
 
-  void distrust(Matches& matches) {
+  void set_prior(Matches& matches) {
     Workspace workspace;
-    search_.distrust_what_came(history_, now_s_, Pose::Identity(), camera_, KinectNoise(), kStep_px, matches,
-                               workspace);
+    search_.set_static_prior(history_, now_s_, Pose::Identity(), camera_, KinectNoise(), kStep_px, matches, workspace);
   }
 
   static constexpr int kStep_px = 20;
@@ -137,14 +136,14 @@ TEST_F(SpaceSearchTest, TheMotionSinceIsTakenOut) {
 }
 
 TEST_F(SpaceSearchTest, ASurfaceThatCameHasLittleSay) {
-  EXPECT_LT(cell(2.0, 9).space_trust, 0.1f);
+  EXPECT_LT(cell(2.0, 9).space_static_prior, 0.1f);
   EXPECT_EQ(cell(2.0, 9).was_there, 0);
-  EXPECT_EQ(cell(3.0, 9).space_trust, 1.0f);
+  EXPECT_EQ(cell(3.0, 9).space_static_prior, 1.0f);
   EXPECT_EQ(cell(3.0, 9).was_there, 6) << "views of 2.4 to 4.4 s ago";
 }
 
 // One of one saw through: more than what people hide of a room. The view's pose is in doubt, not the surface.
-TEST_F(SpaceSearchTest, AViewThatSeesThroughEverythingSaysNothing) { EXPECT_EQ(cell(2.0, 0).space_trust, 1.0f); }
+TEST_F(SpaceSearchTest, AViewThatSeesThroughEverythingSaysNothing) { EXPECT_EQ(cell(2.0, 0).space_static_prior, 1.0f); }
 
 // The views saw nothing left of column 160. A body at 2 m spans the whole row at v = 100, but for a gap at u = 40; the
 // wall is the row at v = 180, the steps between both are edges. Right of the middle the views saw through the body:
@@ -171,19 +170,19 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
   matches.current.pixel[0] = Vector2f(75, 110);
   matches.current.depth_m[0] = 2.0;
   matches.current.point[0] = camera_.back_project({75, 110}, 2.0);
-  distrust(matches);
+  set_prior(matches);
   for (std::size_t s = 0; s < matches.past_observations.surfaces.size(); ++s) {
     const SurfaceCell& cell = matches.past_observations.surfaces[s];
     if (s < body_count && cell.pixel.x() > 60)
-      EXPECT_LT(cell.space_trust, 0.1f) << cell.pixel.transpose();
+      EXPECT_LT(cell.space_static_prior, 0.1f) << cell.pixel.transpose();
     else
-      EXPECT_EQ(cell.space_trust, 1.0f) << cell.pixel.transpose();
+      EXPECT_EQ(cell.space_static_prior, 1.0f) << cell.pixel.transpose();
   }
-  EXPECT_LT(matches.space_trust[0], 0.1f);
+  EXPECT_LT(matches.space_static_prior[0], 0.1f);
 }
 
 // A body 0.4 m before the wall adjoins it: 2.75 · 20 / 300 · 2.6 m = 0.48 m. The views are 0.4, 0.8 and 1.2 s old, none
-// of them 2.2 s. Those of the earlier half know the wall, which stays trusted; the newest alone would not do.
+// of them 2.2 s. Those of the earlier half know the wall, which stays static; the newest alone would not do.
 TEST_F(SpaceSearchTest, AtTheBeginningTheOldestViewsTellTheRoomFromWhoCame) {
   for (const bool early_ones_saw_the_wall : {true, false}) {
     history_.clear();
@@ -202,10 +201,10 @@ TEST_F(SpaceSearchTest, AtTheBeginningTheOldestViewsTellTheRoomFromWhoCame) {
         cell.point = camera_.back_project(cell.pixel.cast<double>(), v == 110 ? 2.6 : 3.0);
         matches.past_observations.surfaces.push_back(cell);
       }
-    distrust(matches);
+    set_prior(matches);
     for (const SurfaceCell& cell : matches.past_observations.surfaces) {
-      const bool is_trusted = cell.pixel.y() > 110 && early_ones_saw_the_wall;
-      EXPECT_EQ(cell.space_trust >= 1.0f, is_trusted) << cell.pixel.transpose();
+      const bool is_static = cell.pixel.y() > 110 && early_ones_saw_the_wall;
+      EXPECT_EQ(cell.space_static_prior >= 1.0f, is_static) << cell.pixel.transpose();
       EXPECT_EQ(cell.was_there, 0) << "no view is old enough to say so";
     }
   }
@@ -217,7 +216,7 @@ TEST_F(SpaceSearchTest, WithoutViewsOrDepthNothingIsSaid) {
   depth_.setTo(0.0);
   history_.push(view_of(gray_, depth_, 0), Pose::Identity());
   EXPECT_EQ(through(2.0), 0);
-  EXPECT_EQ(cell(2.0, 3).space_trust, 1.0f);
+  EXPECT_EQ(cell(2.0, 3).space_static_prior, 1.0f);
 }
 
 }  // namespace

@@ -27,14 +27,14 @@ TEST(StaticWeights, IsTheShareOfWhatStoodStill) {
   EXPECT_FLOAT_EQ(weights.at({60, 20}), 1.0f) << "nothing is known there";
 }
 
-// (1 feature · trust 1 + 1/2 of a surface · trust 0.05) / (1 + 1/2). Alone, the surface's trust is all that is known.
+// (1 feature · prior 1 + 1/2 of a surface · prior 0.05) / (1 + 1/2). Alone, the surface's prior is all that is known.
 TEST(StaticWeights, ASurfaceHasHalfOfAFeaturesVote) {
   Matches matches;
   matches.begin(std::vector<Vector2f>{{3, 3}});
   SurfaceCell beside_feature, alone;
   beside_feature.pixel = {12, 12};
   alone.pixel = {36, 12};
-  beside_feature.space_trust = alone.space_trust = 0.05f;
+  beside_feature.space_static_prior = alone.space_static_prior = 0.05f;
   matches.past_observations.surfaces = {beside_feature, alone};
   StaticWeights weights;
   weights.assign(test::observations_of(matches), std::vector<Label>(1), 96, 48);

@@ -26,7 +26,7 @@ struct Feature {
 };
 
 /// Frames come every tenth of a second. Half of the log-odds stay from one to the next, they are held within ± 3,
-/// dynamic above 0. Above 2 a feature is suspect at once, and nine tenths of that stay.
+/// dynamic above 0. Above 2 the dynamic prior is 1 at once, and nine tenths of that stay.
 class EvidenceMemoryTest : public testing::Test {
  protected:
   static constexpr double kElapsed_s = 0.1;
@@ -34,8 +34,8 @@ class EvidenceMemoryTest : public testing::Test {
   EvidenceMemoryTest() {
     memory_.options.log_odds_decay_s = kElapsed_s / std::log(2.0);
     memory_.caution = 0.0f;
-    memory_.options.suspicion_rise_s = 1e-6;
-    memory_.options.suspicion_decay_s = kElapsed_s / std::log(1.0 / 0.9);
+    memory_.options.dynamic_prior_rise_s = 1e-6;
+    memory_.options.dynamic_prior_decay_s = kElapsed_s / std::log(1.0 / 0.9);
   }
 
   /// One frame in which the features have these log-odds by themselves.
@@ -227,108 +227,108 @@ TEST_F(EvidenceMemoryTest, ResetForgets) {
   memory_.reset();
   frame(-0.1f);
   EXPECT_NEAR(labels_[0].log_odds, -0.1f, kRounding);
-  EXPECT_EQ(remembered_.trust[0], 1.0f);
+  EXPECT_EQ(remembered_.static_prior[0], 1.0f);
 }
 
-// ---- Suspicion ----
+// ---- Dynamic prior ----
 
-// What moved once is suspect, also when it stands again: its say is 1 − 0.99 · 0.9 in the next frame.
+// What moved once keeps a dynamic prior when it stands again: its weight is 1 − 0.99 · 0.9 in the next frame.
 TEST_F(EvidenceMemoryTest, WhatMovedOnceHasLittleSayForLong) {
   frame(-2.0f);
   frame(-2.0f);
-  EXPECT_EQ(remembered_.trust[0], 1.0f);
+  EXPECT_EQ(remembered_.static_prior[0], 1.0f);
   frame(5.0f);
   frame(-6.0f);
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.9f, kRounding);
   frame(-6.0f);
-  EXPECT_TRUE(labels_[0].keep) << "suspicion drives no verdict";
-  EXPECT_LT(remembered_.trust[0], 0.3f);
+  EXPECT_TRUE(labels_[0].keep) << "the dynamic prior drives no verdict";
+  EXPECT_LT(remembered_.static_prior[0], 0.3f);
 }
 
-// It moved, which makes it suspect in full; then it stands for long, and its log-odds are held at
+// It moved, which sets its dynamic prior to 1; then it stands for long, and its log-odds are held at
 // −3 · (1 − 0.6 · 0.9) instead of −3, so that it is found sooner when it starts again. What never moved keeps the whole
 // bound.
 TEST_F(EvidenceMemoryTest, WhatMovedOnceIsFoundSoonerWhenItStartsAgain) {
   for (const float now : {5.0f, -6.0f, -6.0f, -6.0f}) frame({{Vector2f(50, 50)}, {Vector2f(200, 50)}}, {now, -6.0f});
   EXPECT_NEAR(labels_[0].log_odds, -3.0f * (1.0f - 0.6f * 0.9f), kRounding);
   EXPECT_NEAR(labels_[1].log_odds, -3.0f, kRounding);
-  EXPECT_LT(labels_[0].trust, 0.3f);
-  EXPECT_EQ(labels_[0].trust, remembered_.trust[0]);
-  EXPECT_EQ(labels_[1].trust, 1.0f);
+  EXPECT_LT(labels_[0].static_prior, 0.3f);
+  EXPECT_EQ(labels_[0].static_prior, remembered_.static_prior[0]);
+  EXPECT_EQ(labels_[1].static_prior, 1.0f);
 }
 
-/// Ten old features round (50, 50) on one surface, all at the same distance, of which `suspects` moved.
-void ring(std::size_t suspects, std::vector<Feature>& features, std::vector<float>& log_odds) {
+/// Ten old features round (50, 50) on one surface, all at the same distance, of which `moving` moved.
+void ring(std::size_t moving, std::vector<Feature>& features, std::vector<float>& log_odds) {
   features.clear();
   log_odds.clear();
   for (std::size_t k = 0; k < 10; ++k) {
     const float angle = 0.6283f * static_cast<float>(k);
     features.push_back({Vector2f(50 + 20 * std::cos(angle), 50 + 20 * std::sin(angle))});
-    log_odds.push_back(k < suspects ? 5.0f : -5.0f);
+    log_odds.push_back(k < moving ? 5.0f : -5.0f);
   }
 }
 
-// A share p of suspect neighbours hands on (p − ¼) / ½, held within 0 and 1, times 0.9.
-TEST_F(EvidenceMemoryTest, SuspicionIsInheritedByMajority) {
-  for (const auto& [suspects, suspicion] :
+// A share p of neighbours that moved hands on (p − ¼) / ½, held within 0 and 1, times 0.9.
+TEST_F(EvidenceMemoryTest, DynamicPriorIsInheritedByMajority) {
+  for (const auto& [moving, dynamic_prior] :
        {std::pair<std::size_t, float>{0, 0.0f}, {2, 0.0f}, {5, 0.45f}, {8, 0.9f}, {10, 0.9f}}) {
     memory_.reset();
     std::vector<Feature> features;
     std::vector<float> log_odds;
-    ring(suspects, features, log_odds);
+    ring(moving, features, log_odds);
     frame(features, log_odds);
     frame(-1.0f);  // one new feature in the middle, 20 px from each
-    EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * suspicion, 1e-3f) << suspects;
+    EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * dynamic_prior, 1e-3f) << moving;
     EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a new feature inherits no log-odds";
   }
 }
 
-// What is known of a feature rises by g = 1 − exp(−0.1 s / 1 s) = 0.0952 of what is missing. The suspect is in its
-// second frame, 0.0952 + 0.0952 · 0.9048 = 0.1813; the other one, 40 px away, in its first. Half way between them the
-// suspect's share is 0.1813 / (0.1813 + 0.0952) = 0.6558: (0.6558 − ¼) / ½ · 0.9 = 0.7304 is handed on, by equal votes
+// What is known of a feature rises by g = 1 − exp(−0.1 s / 1 s) = 0.0952 of what is missing. The one that moved is in
+// its second frame, 0.0952 + 0.0952 · 0.9048 = 0.1813; the other one, 40 px away, in its first. Half way between them
+// its share is 0.1813 / (0.1813 + 0.0952) = 0.6558: (0.6558 − ¼) / ½ · 0.9 = 0.7304 is handed on, by equal votes
 // 0.45.
 TEST_F(EvidenceMemoryTest, WhoIsNewHasLittleOfAVote) {
   frame({{Vector2f(30, 50)}}, {5.0f});
   frame({{Vector2f(30, 50)}, {Vector2f(70, 50)}}, {5.0f, -1.0f});
   frame(-1.0f);
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.7304f, 1e-3f);
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.7304f, 1e-3f);
 }
 
-// The same with a surface cell where the suspect was, which knows 0.0952 of it and watches for a frame more: 0.1813. Of
-// the suspicion 0.9 is left: 0.9 · 0.6558 = 0.5902, (0.5902 − ¼) / ½ · 0.9 = 0.6124.
+// The same with a surface cell where the moving one was, which knows 0.0952 of it and watches for a frame more: 0.1813.
+// Of the prior 0.9 is left: 0.9 · 0.6558 = 0.5902, (0.5902 − ¼) / ½ · 0.9 = 0.6124.
 TEST_F(EvidenceMemoryTest, ASurfaceCellIsWatchedToo) {
   frame({{Vector2f(30, 50)}}, {5.0f});
   surfaces_ = {cell(30, 2.0)};
   frame({{Vector2f(70, 50)}}, {-1.0f});
   frame(-1.0f);
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.6124f, 1e-3f);
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.6124f, 1e-3f);
 }
 
-TEST_F(EvidenceMemoryTest, SuspicionDoesNotJumpToAnotherSurface) {
+TEST_F(EvidenceMemoryTest, DynamicPriorDoesNotJumpToAnotherSurface) {
   std::vector<Feature> features;
   std::vector<float> log_odds;
   ring(10, features, log_odds);
   frame(features, log_odds);
   frame({{Vector2f(50, 50), 3.0}}, {-1.0f});
-  EXPECT_EQ(remembered_.trust[0], 1.0f);
+  EXPECT_EQ(remembered_.static_prior[0], 1.0f);
 }
 
-TEST_F(EvidenceMemoryTest, SurfaceCellsAreTrustedAsTheFeaturesOnThem) {
+TEST_F(EvidenceMemoryTest, SurfaceCellsHaveThePriorOfTheFeaturesOnThem) {
   std::vector<Feature> features;
   std::vector<float> log_odds;
   ring(10, features, log_odds);
   frame(features, log_odds);
   matches_.past_observations.surfaces = {cell(50, 2.0), cell(50, 3.0), cell(200, 2.0)};
   recall();
-  EXPECT_NEAR(remembered_.surface_trust[0], 1.0f - 0.99f * 0.9f, kRounding);
-  EXPECT_EQ(remembered_.surface_trust[1], 1.0f);
-  EXPECT_EQ(remembered_.surface_trust[2], 1.0f);
+  EXPECT_NEAR(remembered_.surface_static_prior[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_EQ(remembered_.surface_static_prior[1], 1.0f);
+  EXPECT_EQ(remembered_.surface_static_prior[2], 1.0f);
 }
 
-// Two views of seconds ago saw a surface in its place, and none saw through: what is suspected there is so by mistake.
-TEST_F(EvidenceMemoryTest, WhatHasStoodForSecondsIsSuspectedNoMore) {
+// Two views of seconds ago saw a surface in its place, and none saw through: a dynamic prior there is a mistake.
+TEST_F(EvidenceMemoryTest, AfterSecondsAtRestTheDynamicPriorIsGone) {
   frame({{Vector2f(50, 50)}}, {5.0f});
-  for (const auto& [was_there, trust, expected] :
+  for (const auto& [was_there, space_static_prior, expected] :
        {std::tuple(0, 1.0f, 0.109f), {1, 1.0f, 0.109f}, {2, 1.0f, 1.0f}, {2, 0.5f, 0.109f}}) {
     const std::vector<Vector2f> pixels = {{50, 50}};
     matches_.begin(pixels);
@@ -336,19 +336,19 @@ TEST_F(EvidenceMemoryTest, WhatHasStoodForSecondsIsSuspectedNoMore) {
     matches_.current.depth_m[0] = 2.0;
     matches_.current.depth_sigma_m[0] = 0.008;
     matches_.was_there[0] = static_cast<std::uint8_t>(was_there);
-    matches_.space_trust[0] = trust;
+    matches_.space_static_prior[0] = space_static_prior;
     matches_.past_observations.surfaces = {cell(50, 2.0)};
     matches_.past_observations.surfaces[0].was_there = static_cast<std::uint8_t>(was_there);
-    matches_.past_observations.surfaces[0].space_trust = trust;
+    matches_.past_observations.surfaces[0].space_static_prior = space_static_prior;
     recall();
-    EXPECT_NEAR(remembered_.trust[0], expected, kRounding) << was_there << " " << trust;
-    EXPECT_NEAR(remembered_.surface_trust[0], expected, kRounding) << was_there << " " << trust;
+    EXPECT_NEAR(remembered_.static_prior[0], expected, kRounding) << was_there << " " << space_static_prior;
+    EXPECT_NEAR(remembered_.surface_static_prior[0], expected, kRounding) << was_there << " " << space_static_prior;
   }
 }
 
-// A ring of features moves and is gone a frame later; the cell in its middle, 20 px from each, stays suspect by itself,
-// and hands that on to the next feature there. Nothing else knows of it any more.
-TEST_F(EvidenceMemoryTest, SurfaceCellsHandSuspicionOnWhereThereIsNoFeature) {
+// A ring of features moves and is gone a frame later; the cell in its middle, 20 px from each, keeps its dynamic prior
+// by itself, and hands that on to the next feature there. Nothing else knows of it any more.
+TEST_F(EvidenceMemoryTest, SurfaceCellsHandTheDynamicPriorOnWhereThereIsNoFeature) {
   std::vector<Feature> features;
   std::vector<float> log_odds;
   ring(10, features, log_odds);
@@ -357,9 +357,9 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsHandSuspicionOnWhereThereIsNoFeature) {
   frame(features, log_odds);
   frame({{Vector2f(300, 300)}}, {-1.0f});
   frame({{Vector2f(50, 50)}, {Vector2f(50, 52), 3.0}, {Vector2f(120, 50)}}, {-1.0f, -1.0f, -1.0f});
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
-  EXPECT_EQ(remembered_.trust[1], 1.0f) << "another surface";
-  EXPECT_EQ(remembered_.trust[2], 1.0f) << "a cell that was never beside anything that moved";
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_EQ(remembered_.static_prior[1], 1.0f) << "another surface";
+  EXPECT_EQ(remembered_.static_prior[2], 1.0f) << "a cell that was never beside anything that moved";
   EXPECT_NEAR(labels_[0].log_odds, -1.0f, kRounding) << "a cell hands no log-odds on";
 }
 
@@ -371,7 +371,7 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
   ring(10, features, log_odds);
   frame(features, log_odds);
   frame({{Vector2f(50, 50), 0.0}}, {-1.0f});
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding) << "there is no other to ask";
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.9f, kRounding) << "there is no other to ask";
   memory_.reset();
   ring(0, depthless, standing);
   for (std::size_t k = 0; k < depthless.size(); ++k) {
@@ -380,19 +380,19 @@ TEST_F(EvidenceMemoryTest, FeaturesWithADepthAndWithoutHaveNoVoteAmongEachOther)
   }
   frame(features, log_odds);
   frame({{Vector2f(50, 50)}, {Vector2f(50, 50), 0.0}}, {-1.0f, -1.0f});
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
-  EXPECT_EQ(remembered_.trust[1], 1.0f);
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_EQ(remembered_.static_prior[1], 1.0f);
 }
 
 // A gain of 0.6: the first frame adds 0.6, which a majority of (0.6 − 0.25) / 0.5 = 0.7 hands on, times 0.9: 0.63. The
 // second makes it 0.63 + 0.6 · 0.37 = 0.852, all of which is handed on: 0.9.
-TEST_F(EvidenceMemoryTest, SuspicionGrowsFromFrameToFrame) {
-  memory_.options.suspicion_rise_s = kElapsed_s / std::log(1.0 / 0.4);
+TEST_F(EvidenceMemoryTest, DynamicPriorGrowsFromFrameToFrame) {
+  memory_.options.dynamic_prior_rise_s = kElapsed_s / std::log(1.0 / 0.4);
   frame(2.5f);
   frame(2.5f);
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.63f, kRounding);
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.63f, kRounding);
   frame(2.5f);
-  EXPECT_NEAR(remembered_.trust[0], 1.0f - 0.99f * 0.9f, kRounding);
+  EXPECT_NEAR(remembered_.static_prior[0], 1.0f - 0.99f * 0.9f, kRounding);
 }
 
 TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {
@@ -401,7 +401,7 @@ TEST_F(EvidenceMemoryTest, PixelsThatAreNoneAreAnsweredToo) {
     frame({{Vector2f(kNaN, 50)}, {Vector2f(1e30f, 1e30f)}, {Vector2f(-50, -50), 0.0}}, {-1, -1, 2});
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_TRUE(std::isfinite(labels_[i].log_odds));
-      EXPECT_TRUE(std::isfinite(remembered_.trust[i]));
+      EXPECT_TRUE(std::isfinite(remembered_.static_prior[i]));
     }
   }
   frame({}, {});

@@ -37,7 +37,7 @@ RememberedPoints::Sums one_by_one(const std::vector<RememberedPoint>& points, co
     const float vote = std::max(0.0f, 1 - squared / (25.0f * 25.0f)) * (same_kind ? 1.0f : 0.02f);
     sums.asked += vote;
     sums.votes += vote * point.certainty;
-    sums.suspicion += vote * point.certainty * point.suspicion;
+    sums.dynamic_prior += vote * point.certainty * point.dynamic_prior;
     if (!point.is_feature) continue;
     const float near = std::max(0.0f, 1 - squared / (15.0f * 15.0f));
     const float weight = near * near * (same_kind ? 1.0f : 0.2f);
@@ -51,12 +51,12 @@ RememberedPoints::Sums one_by_one(const std::vector<RememberedPoint>& points, co
 TEST(RememberedPoints, AVoteFallsWithTheDistance) {
   const RememberedPoints::Sums sums = sums_around({{{115, 100}, 2.0f, 3.0f, 0.5f, true}}, {100, 100}, 2.05f);
   EXPECT_FLOAT_EQ(sums.votes, 0.64f);
-  EXPECT_FLOAT_EQ(sums.suspicion, 0.32f);
+  EXPECT_FLOAT_EQ(sums.dynamic_prior, 0.32f);
   EXPECT_NEAR(sums.feature_weight, 0.0f, 1e-6f);
   // One of which little is known has so much less of a vote.
   const RememberedPoints::Sums unsure = sums_around({{{115, 100}, 2.0f, 3.0f, 0.5f, true, 0.25f}}, {100, 100}, 2.05f);
   EXPECT_FLOAT_EQ(unsure.votes, 0.16f);
-  EXPECT_FLOAT_EQ(unsure.suspicion, 0.08f);
+  EXPECT_FLOAT_EQ(unsure.dynamic_prior, 0.08f);
   EXPECT_FLOAT_EQ(unsure.asked, 0.64f);
   // At 9 px (1 − 0.36)² = 0.4096 of its log-odds, unless it is a surface cell.
   EXPECT_FLOAT_EQ(sums_around({{{109, 100}, 2.0f, 3.0f, 0.5f, true}}, {100, 100}, 2.0f).log_odds, 3.0f * 0.4096f);
@@ -94,7 +94,7 @@ TEST(RememberedPoints, SumsAreThoseOfOnePointAfterTheOther) {
       const RememberedPoints::Sums found = sums_around(points, pixel, depth_m);
       ASSERT_NEAR(found.votes, expected.votes, 1e-4f) << "seed " << seed;
       ASSERT_NEAR(found.asked, expected.asked, 1e-4f) << "seed " << seed;
-      ASSERT_NEAR(found.suspicion, expected.suspicion, 1e-4f) << "seed " << seed;
+      ASSERT_NEAR(found.dynamic_prior, expected.dynamic_prior, 1e-4f) << "seed " << seed;
       ASSERT_NEAR(found.feature_weight, expected.feature_weight, 1e-4f) << "seed " << seed;
       ASSERT_NEAR(found.log_odds, expected.log_odds, 1e-4f) << "seed " << seed;
     }

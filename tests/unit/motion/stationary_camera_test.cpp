@@ -21,12 +21,12 @@ constexpr double kNoDepth = 0.0;
 class StationaryCameraTest : public testing::Test {
  protected:
   /// @param moved_px  since the last frame
-  void add(std::size_t count, double moved_px, double depth_m, float trust = 1.0f) {
+  void add(std::size_t count, double moved_px, double depth_m, float static_prior = 1.0f) {
     const std::size_t first = matches_.size();
     matches_.resize(first + count);
     for (std::size_t i = first; i < matches_.size(); ++i) {
       matches_.state[i] = MatchState::matched;
-      matches_.space_trust[i] = trust;
+      matches_.space_static_prior[i] = static_prior;
       matches_.reference.undistorted[i] = {300.0, 200.0};
       // Askew by 3 : 4, so that both coordinates count.
       matches_.current.undistorted[i] = Vector2d(300.0, 200.0) + moved_px * Vector2d(0.6, -0.8);
@@ -141,36 +141,37 @@ TEST_F(StationaryCameraTest, TheMeanDepthIsOfThoseThatHaveOne) {
   EXPECT_TRUE(stands(true)) << "3 m is behind 2.5 m";
 }
 
-TEST_F(StationaryCameraTest, WhatIsSuspectAtRestProvesLess) {
+TEST_F(StationaryCameraTest, ALowStaticPriorAtRestProvesLess) {
   add(20, 0.0, 3.0, 0.1f);
   add(80, 2.0, 0.6);
   EXPECT_FALSE(stands(true)) << "2 of 82";
 }
 
-TEST_F(StationaryCameraTest, WhatIsSuspectAndMovesDisprovesLess) {
+TEST_F(StationaryCameraTest, ALowStaticPriorInMotionDisprovesLess) {
   add(50, 0.0, 2.0);
   add(50, 2.0, 2.0, 0.1f);
   EXPECT_TRUE(stands(false)) << "50 of 55";
-  for (float& trust : matches_.space_trust) trust = 1.0f;
+  for (float& prior : matches_.space_static_prior) prior = 1.0f;
   EXPECT_FALSE(stands(false)) << "50 of 100";
 }
 
-// A suspect hood before a wall: by weight what rests is at 1 / ((10 / 3 + 0.1 · 10 / 0.3) / 11) = 1.65 m, behind the 1
-// m of what moves; by count it would be at 1 / ((10 / 3 + 10 / 0.3) / 20) = 0.55 m. And a suspect wall behind a hood:
-// at 1 / ((10 / 0.9 + 0.1 · 10 / 3) / 11) = 0.96 m by weight, at 1 / ((10 / 0.9 + 10 / 3) / 20) = 1.38 m by count.
-TEST_F(StationaryCameraTest, TrustWeighsTheDepthsToo) {
+// A hood of a low static prior before a wall: by weight what rests is at 1 / ((10 / 3 + 0.1 · 10 / 0.3) / 11) = 1.65 m,
+// behind the 1 m of what moves; by count it would be at 1 / ((10 / 3 + 10 / 0.3) / 20) = 0.55 m. And a wall of a low
+// one behind a hood: at 1 / ((10 / 0.9 + 0.1 · 10 / 3) / 11) = 0.96 m by weight, at 1 / ((10 / 0.9 + 10 / 3) / 20)
+// = 1.38 m by count.
+TEST_F(StationaryCameraTest, TheStaticPriorWeighsTheDepthsToo) {
   add(10, 0.0, 3.0);
   add(10, 0.0, 0.3, 0.1f);
   add(80, 2.0, 1.0);
   EXPECT_TRUE(stands(true));
-  for (float& trust : matches_.space_trust) trust = 1.0f;
+  for (float& prior : matches_.space_static_prior) prior = 1.0f;
   EXPECT_FALSE(stands(true));
   matches_.resize(0);
   add(10, 0.0, 0.9);
   add(10, 0.0, 3.0, 0.1f);
   add(80, 2.0, 1.0);
   EXPECT_FALSE(stands(true));
-  for (float& trust : matches_.space_trust) trust = 1.0f;
+  for (float& prior : matches_.space_static_prior) prior = 1.0f;
   EXPECT_TRUE(stands(true));
 }
 
@@ -180,7 +181,7 @@ TEST_F(StationaryCameraTest, WithoutAnOlderFrameNothingSpeaksAgainst) {
   EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));
 }
 
-TEST_F(StationaryCameraTest, WhatCreepsShowsInAnOlderFrame) {
+TEST_F(StationaryCameraTest, ASlowMotionShowsInAnOlderFrame) {
   add(100, 0.05, 2.0);
   reproject_into_past();
   EXPECT_TRUE(camera_.since_older_frames(test::observations_of(matches_)));

@@ -126,7 +126,7 @@ TEST(SupportMotion, ThePastLosesWhereItExplainsTooLittle) {
 }
 
 // The same 60 %, but known to be doubtful: from memory, or as a dynamic region.
-TEST(SupportMotion, TrustAndRegionsWeigh) {
+TEST(SupportMotion, StaticPriorAndRegionsWeigh) {
   const Pose mover = test::pose_of({0, 0, 0}, {0.06, 0, 0});
   Workspace workspace;
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -134,32 +134,32 @@ TEST(SupportMotion, TrustAndRegionsWeigh) {
     Regions regions = regions_of(matches);
     for (std::size_t i = 0; i < 120; ++i) regions.of_feature[i].in_dynamic = true;
     SupportMotion with_regions = policy();
-    with_regions.constraints.dynamic_trust = 0.1;
+    with_regions.constraints.dynamic_region_weight = 0.1;
     const Motion by_region =
         with_regions.estimate(test::observations_of(matches, regions), test::test_camera(), {}, workspace);
     EXPECT_EQ(by_region.status, Status::ok);
     EXPECT_LT(test::translation_error(by_region.current_from_reference, kMotion), 5e-3);
-    for (std::size_t i = 0; i < 120; ++i) matches.space_trust[i] = 0.1f;
-    const Motion by_trust = estimate(matches);
-    EXPECT_EQ(by_trust.status, Status::ok);
-    EXPECT_LT(test::translation_error(by_trust.current_from_reference, kMotion), 5e-3);
+    for (std::size_t i = 0; i < 120; ++i) matches.space_static_prior[i] = 0.1f;
+    const Motion by_prior = estimate(matches);
+    EXPECT_EQ(by_prior.status, Status::ok);
+    EXPECT_LT(test::translation_error(by_prior.current_from_reference, kMotion), 5e-3);
   }
 }
 
-// 40 % of the matches have crept by 1 mm, a quarter of a pixel. That is too little for the rest to object to: in full
+// 40 % of the matches have moved by 1 mm, a quarter of a pixel. That is too little for the rest to object to: in full
 // they pull the motion along by more than half of 0.4 mm. With log-odds of 2 each counts 2 / (1 + e²) = 0.24, which is
-// 14 % of the weight; what is suspect as well counts a hundredth of that.
+// 14 % of the weight; with a dynamic prior of 1 it counts a hundredth of that.
 TEST(SupportMotion, WhatMovesRightNowSaysLittle) {
-  const Pose creep = test::pose_of({0, 0, 0}, {0.001, 0, 0});
-  constexpr std::size_t kCrept = 80;
+  const Pose slow = test::pose_of({0, 0, 0}, {0.001, 0, 0});
+  constexpr std::size_t kMoving = 80;
   constexpr int kScenes = 20;
-  const auto pulled_mm = [&](float trust, float log_odds) {
+  const auto pulled_mm = [&](float static_prior, float log_odds) {
     double sum = 0;
     for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
-      const Matches matches = scene_of(kMotion, seed, 0.3, 0.4, creep);
+      const Matches matches = scene_of(kMotion, seed, 0.3, 0.4, slow);
       Observations observations = test::observations_of(matches, regions_of(matches));
-      std::fill_n(observations.remembered.trust.begin(), kCrept, trust);
-      std::fill_n(observations.remembered.log_odds.begin(), kCrept, log_odds);
+      std::fill_n(observations.remembered.static_prior.begin(), kMoving, static_prior);
+      std::fill_n(observations.remembered.log_odds.begin(), kMoving, log_odds);
       Workspace workspace;
       const Motion motion = policy().estimate(observations, test::test_camera(), MotionPrior{kMotion}, workspace);
       sum += 1e3 * (motion.current_from_reference.translation() - kMotion.translation()).x();
@@ -167,7 +167,7 @@ TEST(SupportMotion, WhatMovesRightNowSaysLittle) {
     return sum / kScenes;
   };
   EXPECT_GT(pulled_mm(1.0f, -1.0f), 0.2) << "nothing is known against them";
-  EXPECT_GT(pulled_mm(0.01f, -1.0f), 0.2) << "suspect, and parked";
+  EXPECT_GT(pulled_mm(0.01f, -1.0f), 0.2) << "a low static prior, and parked";
   EXPECT_LT(std::abs(pulled_mm(1.0f, 2.0f)), 0.2);
   EXPECT_LT(std::abs(pulled_mm(0.01f, 2.0f)), 0.1);
 }
@@ -285,10 +285,10 @@ TEST(SupportMotion, AFewMatchesAmongManyWrongOnesAreInDoubt) {
 }
 
 // 60 % move by 6 cm on top: many pixels, and not noise of the camera.
-TEST(SupportMotion, TheNoiseIsOfWhatIsTrusted) {
+TEST(SupportMotion, TheNoiseIsOfLikelyStaticPoints) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Matches matches = scene_of(kMotion, seed, 0.3 / std::sqrt(2.0), 0.6, test::pose_of(Vector3d::Zero(), {0.06, 0, 0}));
-    for (std::size_t i = 0; i < 120; ++i) matches.space_trust[i] = 0.1f;
+    for (std::size_t i = 0; i < 120; ++i) matches.space_static_prior[i] = 0.1f;
     EXPECT_NEAR(estimate(matches, MotionPrior{kMotion}).pixel_sigma, 0.3, 0.3 * 0.3)
         << "80 matches are left: four times 8 %";
   }
@@ -301,7 +301,7 @@ const MotionPrior kStood{std::nullopt, true}, kMoved{std::nullopt, false};
 bool is_identity(const Pose& pose) { return pose.matrix() == Pose::Identity().matrix(); }
 
 /// The angle by which noise of 0.15 px in all corners would be one turn of the camera.
-constexpr double kCreep_rad = 0.15 / 525.0;
+constexpr double kSlowTurn_rad = 0.15 / 525.0;
 
 TEST(SupportMotion, ACameraThatStandsHasNoMotionAtAll) {
   Random random(1);
@@ -329,17 +329,17 @@ TEST(SupportMotion, ACameraThatMovesDoesNotStand) {
 }
 
 // Every corner moves by 0.15 px, half of what is at rest, with a noise of 0.02 px: no corner tells, all together do.
-TEST(SupportMotion, ACreepIsAMotion) {
+TEST(SupportMotion, ASlowTurnIsAMotion) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    const Pose creep = test::pose_of({0, kCreep_rad, 0}, Vector3d::Zero());
-    const Matches matches = scene_of(creep, seed, 0.02 / std::sqrt(2.0));
+    const Pose slow = test::pose_of({0, kSlowTurn_rad, 0}, Vector3d::Zero());
+    const Matches matches = scene_of(slow, seed, 0.02 / std::sqrt(2.0));
     ASSERT_TRUE(policy().stationary_camera.since_last_frame(test::observations_of(matches), false))
         << "each corner by itself is at rest";
     const Motion motion = estimate(matches, kStood);
     EXPECT_EQ(motion.status, Status::ok);
     EXPECT_FALSE(motion.stationary);
-    EXPECT_LT(test::rotation_error(motion.current_from_reference, creep), 0.1 * kCreep_rad);
-    EXPECT_LT(test::translation_error(motion.current_from_reference, creep), 1e-4);
+    EXPECT_LT(test::rotation_error(motion.current_from_reference, slow), 0.1 * kSlowTurn_rad);
+    EXPECT_LT(test::translation_error(motion.current_from_reference, slow), 1e-4);
   }
 }
 
@@ -589,15 +589,15 @@ TEST(SupportMotion, RefiningLeavesAStationaryCameraAlone) {
 }
 
 // 0.6 px within half a second are 0.04 px from frame to frame.
-TEST(SupportMotion, ACreepEndsTheStandWhereAnOlderFrameShowsIt) {
-  const Pose creep = test::pose_of({0, 4 * kCreep_rad, 0}, Vector3d::Zero());
-  StoodBack scene(creep);
+TEST(SupportMotion, ASlowTurnEndsTheStandWhereAnOlderFrameShowsIt) {
+  const Pose slow = test::pose_of({0, 4 * kSlowTurn_rad, 0}, Vector3d::Zero());
+  StoodBack scene(slow);
   scene.refine();
   EXPECT_FALSE(scene.motion.stationary);
   const Pose& found = scene.matches.past_observations.frames()[0].reference_from_current;
-  EXPECT_LT(test::rotation_error(found, creep.inverse()), 0.5 * kCreep_rad);
-  EXPECT_LT(test::translation_error(found, creep.inverse()), 1e-3);
-  EXPECT_LT(test::rotation_error(scene.motion.current_from_reference, creep), 0.5 * kCreep_rad);
+  EXPECT_LT(test::rotation_error(found, slow.inverse()), 0.5 * kSlowTurn_rad);
+  EXPECT_LT(test::translation_error(found, slow.inverse()), 1e-3);
+  EXPECT_LT(test::rotation_error(scene.motion.current_from_reference, slow), 0.5 * kSlowTurn_rad);
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ TEST(DefaultScenes, MaskStaysUpWhenNothingUnderItIsHandedIn) {
 }
 
 // Two centimetres a second are a fifth of a pixel from frame to frame: no single pair of frames shows it.
-TEST(DefaultScenes, ABoxThatCreepsIsFound) {
+TEST(DefaultScenes, ASlowBoxIsFound) {
   synthetic::Scene scene = synthetic::slow_mover(full_size(60));
   scene.motion_rule.window_frames = 30;  // by which it moves by the rule's centimetre
   FrameFilter<> filter(scene.camera);

@@ -50,6 +50,20 @@ TEST_F(UseCheckTest, MetresFromFrameToFrameAreSaidAfterTwentyFrames) {
   EXPECT_FALSE(warns(Warning::motion_too_fast)) << "one usual step takes two of them back";
 }
 
+// Image 64 x 48 is 4 : 3, as 32 x 24; depth of a 16 : 9 sensor is not.
+TEST_F(UseCheckTest, DepthOfAnotherShapeIsSaidAfterTwenty) {
+  depth_.resize(32, 24, PixelFormat::depth32f);
+  observe(30, Status::ok);
+  EXPECT_FALSE(warns(Warning::depth_shape_differs)) << "smaller, of the same shape";
+  depth_.resize(64, 36, PixelFormat::depth32f);
+  observe(19, Status::ok);
+  EXPECT_FALSE(warns(Warning::depth_shape_differs));
+  observe(1, Status::ok);
+  EXPECT_TRUE(warns(Warning::depth_shape_differs));
+  observe(10, Status::ok, 0.0, false);
+  EXPECT_FALSE(warns(Warning::depth_shape_differs)) << "without depth";
+}
+
 TEST_F(UseCheckTest, ACarMayMoveByTwoMetresAndWithoutDepthNothingIsMetres) {
   observe(30, Status::ok, 1.9);
   EXPECT_FALSE(warns(Warning::motion_too_fast));

@@ -95,6 +95,15 @@ TEST(WrongUse, DepthOfTheFrameBefore) {
   expect_hint(said, "pair them by time");
 }
 
+TEST(WrongUse, DepthOfAWiderSensor) {
+  const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    const cv::Mat wide = frame.depth.rowRange(frame.depth.rows / 8, frame.depth.rows * 7 / 8);
+    return filter.filter_frame({frame.gray, DepthView::millimetres(wide), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::depth_shape_differs));
+  expect_hint(said, "aligned");
+}
+
 TEST(WrongUse, SixteenBitDepthWithoutItsUnit) {
   const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
     return filter.filter_frame({frame.gray, frame.depth, frame.time_s}, frame.keypoints);

@@ -30,13 +30,13 @@ class SampsonScoreTest : public testing::Test {
     for (int i = 0; i < 30; ++i) add({100.0 + 10 * i, 50.0 + 13 * i}, {10, 0});  // what stands, 50 units away
   }
 
-  std::size_t add(const Vector2d& from, const Vector2d& step, float trust = 1.0f) {
+  std::size_t add(const Vector2d& from, const Vector2d& step, float static_prior = 1.0f) {
     const std::size_t i = matches.size();
     matches.resize(i + 1);
     matches.state[i] = MatchState::matched;
     matches.reference.undistorted[i] = from;
     matches.current.undistorted[i] = from + step;
-    matches.space_trust[i] = trust;
+    matches.space_static_prior[i] = static_prior;
     return i;
   }
   float score_of(std::size_t i) {
@@ -94,7 +94,7 @@ TEST_F(SampsonScoreTest, NothingIsScoredWhereTheMotionDoesNotExplainTheFrame) {
   EXPECT_TRUE(std::isnan(score_of(0)));
 }
 
-TEST_F(SampsonScoreTest, SuspectsDoNotSayHowNoisyTheFrameIs) {
+TEST_F(SampsonScoreTest, ALowStaticPriorDoesNotSayHowNoisyTheFrameIs) {
   for (int i = 0; i < 100; ++i) add({300, 200}, {10, 20}, 0.1f);
   EXPECT_NEAR(score_of(0), -0.5, 1e-6);
 }

@@ -100,7 +100,7 @@ TEST(DynamicFeatures, AFeatureDeviatesByMoreThanTheNoiseOfBoth) {
   EXPECT_FALSE(is_off()) << "no depth says nothing";
 }
 
-// The map's points have crept along: only where they were first seen tells.
+// The map's points have moved along: only where they were first seen tells.
 TEST(DynamicFeatures, FindsWhatTookItsPointsAlong) {
   const std::vector<Vector3d> points = box_and_room();
   slam::Map map = made_map(points, 2);
@@ -127,17 +127,17 @@ TEST(Map, RemembersWherePointsWereFirstSeenWhenThatKeyframeGoes) {
   EXPECT_LT((world_from_camera * first.p_camera - p_world).norm(), 1e-9);
 }
 
-/// Share of a creeping box's features that the filter drops in the last half second of five.
+/// Share of a slow box's features that the filter drops in the last half second of five.
 double dropped_share(bool uses_multi_view) {
   stillpoint::synthetic::SceneOptions ten_per_second;
   ten_per_second.frame_rate_hz = 10;
   ten_per_second.frames = 50;
   constexpr double kSpeed = 0.01, kSeconds = 5.0;
   stillpoint::synthetic::Scene scene = stillpoint::synthetic::static_room(ten_per_second);
-  const auto creep = stillpoint::synthetic::PathBuilder({0.3, 0, 2.0}, 0.3)
-                         .slide_to({0.3 + kSpeed * kSeconds, 0, 2.0}, kSpeed)
-                         .path(stillpoint::synthetic::Blend::linear);
-  scene.movers.push_back(stillpoint::synthetic::printed_box(creep, {0.30, 0.35, 0.22}, ten_per_second.seed + 20));
+  const auto path = stillpoint::synthetic::PathBuilder({0.3, 0, 2.0}, 0.3)
+                        .slide_to({0.3 + kSpeed * kSeconds, 0, 2.0}, kSpeed)
+                        .path(stillpoint::synthetic::Blend::linear);
+  scene.movers.push_back(stillpoint::synthetic::printed_box(path, {0.30, 0.35, 0.22}, ten_per_second.seed + 20));
   stillpoint::SyntheticSequence sequence(scene);
   slam::SlamOptions options = slam_run::in_step();
   options.finds_dynamic = true;
@@ -164,7 +164,7 @@ double dropped_share(bool uses_multi_view) {
   return dropped / on_box;
 }
 
-TEST(Slam, FindsABoxThatCreepsAtACentimetrePerSecond) {
+TEST(Slam, FindsABoxOfACentimetrePerSecond) {
   EXPECT_GT(dropped_share(true), 0.8) << "with multi-view geometry";
   EXPECT_LT(dropped_share(false), 0.1) << "without";
 }

@@ -118,7 +118,7 @@ TEST(Mapping, PointsSeenOnceAreOnTrial) {
   expect_consistent(map);
 }
 
-// Eight suspect features of weight 0.3 show points, two that stand for sure show none: by squares
+// Eight features of weight 0.3 show points, two that stand for sure show none: by squares
 // 8 · 0.09 / (8 · 0.09 + 2) = 0.72 / 2.72, where their number would say 0.8.
 TEST(Frame, WhatTheMapExplainsIsCountedBySquaredWeight) {
   slam::Frame frame = made_frame(made_points(10), camera_at(0));
@@ -167,7 +167,8 @@ TEST(PointSearch, FindsCornersThatBlurHasChanged) {
   for (const slam::PointMatch& match : matches) EXPECT_EQ(match.point, match.feature);
 }
 
-// The filter suspects much that stands still: where objects leave little else, nothing but that can carry the map on.
+// The filter gives much that stands still a low weight: where objects leave little else, nothing but that can carry the
+// map on.
 TEST(Mapping, WhatHasLittleWeightMakesPoints) {
   slam::Map map;
   slam::Frame frame = made_frame(made_points(10), camera_at(0));

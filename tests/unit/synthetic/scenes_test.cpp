@@ -72,7 +72,7 @@ TEST(Scenes, PushedBoxMovesAndPausesUnderANameNoDetectorKnows) {
   EXPECT_EQ(sequence.scene().movers[0].class_name, kUnknownClass);
 }
 
-TEST(Scenes, SlowMoverCreepsAtTwoCentimetresASecond) {
+TEST(Scenes, SlowMoverMovesTwoCentimetresPerSecond) {
   Scene scene = slow_mover(small());
   for (double t = 0; t < 4; t += 0.5) {
     const Vector3d step =

@@ -64,7 +64,7 @@ TEST_F(KeepFloorTest, DoesNothingWhereEnoughIsKept) {
   for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(labels_[i].keep, i < 3);
 }
 
-TEST_F(KeepFloorTest, KeepsTheLeastSuspectUntilEnoughAreKept) {
+TEST_F(KeepFloorTest, KeepsTheLeastDynamicUntilEnoughAreKept) {
   add({5, 5}, true);
   for (const float log_odds : {5.0f, 1.0f, 3.0f, 0.5f, 4.0f}) add({5, 5}, false, log_odds);
   floor_.options.fewest_features = 4;
@@ -78,7 +78,7 @@ TEST_F(KeepFloorTest, KeepsTheLeastSuspectUntilEnoughAreKept) {
   EXPECT_EQ(labels_[0].reason, Reason::consistent);
 }
 
-TEST_F(KeepFloorTest, OfEquallySuspectOnesTheFirstAreKept) {
+TEST_F(KeepFloorTest, OfEquallyDynamicOnesTheFirstAreKept) {
   for (int i = 0; i < 6; ++i) add({5, 5}, false, 2.0f);
   floor_.options.fewest_features = 2;
   EXPECT_EQ(apply(), 2u);
@@ -86,7 +86,7 @@ TEST_F(KeepFloorTest, OfEquallySuspectOnesTheFirstAreKept) {
 }
 
 // Kept: cell (0, 0) only. Dropped: more of it, and one feature in each of three other cells. Two more cells are wanted:
-// those of the least suspect features there, although features of cell (0, 0) are less suspect.
+// those of the least dynamic features there, although features of cell (0, 0) are less dynamic.
 TEST_F(KeepFloorTest, SpreadsOverTheImageBeforeItCounts) {
   add({5, 5}, true);
   add({6, 6}, false, 0.1f);
@@ -107,7 +107,7 @@ TEST_F(KeepFloorTest, CountAndSpreadTogether) {
   floor_.options.fewest_cells = 2;
   floor_.options.fewest_features = 3;
   EXPECT_EQ(apply(), 3u);
-  EXPECT_EQ(rescued(), (std::set<std::size_t>{0, 1, 3})) << "two cells, then the least suspect";
+  EXPECT_EQ(rescued(), (std::set<std::size_t>{0, 1, 3})) << "two cells, then the least dynamic";
 }
 
 // Cells end at 20, 40, 60 across and 20, 40 down; what is outside belongs to the nearest cell.
@@ -141,7 +141,7 @@ TEST_F(KeepFloorTest, PixelsThatAreNoneAreAnsweredToo) {
   EXPECT_EQ(apply(), 2u);
 }
 
-// Over random cases: exactly as many as are needed, and no rescued feature more suspect than one that was left out
+// Over random cases: exactly as many as are needed, and no rescued feature more dynamic than one that was left out
 // when only the count was short.
 TEST_F(KeepFloorTest, KeepsNoMoreThanNeeded) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {

@@ -36,12 +36,11 @@ TEST_F(Weights, WithoutAProbabilityWhatIsKeptWeighsOneAndWhatIsDroppedNothing) {
   EXPECT_EQ(found, (std::vector<float>{1.0f, 0.0f}));
 }
 
-// 0.75 · 0.5 of a feature that is half trusted; what is not trusted at all counts a quarter, and nothing where it
-// moves.
+// 0.75 · 0.5 at a static prior of one half; a prior near 0 counts as 0.35. A dynamic feature has no weight.
 TEST_F(Weights, WhatMovedOnceWeighsLess) {
   std::vector<Label> labels = {label(true, 0.25f), label(true, 0.25f), label(true, kNaN), label(false, kNaN)};
-  labels[0].trust = 0.5f;
-  for (std::size_t i = 1; i < labels.size(); ++i) labels[i].trust = 0.01f;
+  labels[0].static_prior = 0.5f;
+  for (std::size_t i = 1; i < labels.size(); ++i) labels[i].static_prior = 0.01f;
   std::vector<float> found;
   weights(judge({{0, 0}, {1, 1}, {2, 2}, {3, 3}}, labels), found);
   EXPECT_EQ(found, (std::vector<float>{0.375f, 0.75f * 0.35f, 0.35f, 0.0f}));

@@ -57,9 +57,11 @@ class EpipolarMotion {
     const Matches& matches = observations.matches;
     const Workspace::Scope scope(workspace);
     Motion motion;
-    const auto trusted = [&](std::size_t i) { return observations.remembered.trust[i] >= options.least_trust; };
+    const auto likely_static = [&](std::size_t i) {
+      return observations.remembered.static_prior[i] >= options.least_static_prior;
+    };
     const Pairs pairs =
-        gather(matches, select_candidates(matches, observations.regions, options.candidates, workspace, trusted),
+        gather(matches, select_candidates(matches, observations.regions, options.candidates, workspace, likely_static),
                camera, workspace);
     motion.candidates = static_cast<int>(pairs.size());
     motion.metric = !options.unit_translation;

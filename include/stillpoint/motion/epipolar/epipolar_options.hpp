@@ -25,14 +25,14 @@ struct EpipolarOptions {
   std::size_t max_trials = 1000;                  ///< OpenCV's; with 7 points enough for 47 % inliers
   double min_inlier_share = 0.2;                  ///< of the candidates
   double noise_sigmas = 3.0;                      ///< within so many of the matches' own standard deviations ...
-  double min_parallax_px = 0.5;   ///< ... and at most so far off, a simpler motion explains them; 0: is not asked
-  double rotation_share = 0.8;    ///< of what F explains: `rotation_only`; two axes of noise against one
-  double planar_share = 0.9;      ///< of the inliers on one plane: degenerate; > 1: not asked
-  std::size_t min_depths = 3;     ///< inliers with depth at both ends that give t its length
-  double pixel_sigma_px = 1.0;    ///< of a match, for the noise of the scale
-  bool printed_eq3 = false;       ///< E = K F Kᵀ, as printed
-  bool unit_translation = false;  ///< leaves ‖t‖ = 1, as printed: Eq. 6 then has a false offset
-  float least_trust = 0.0f;       ///< of a candidate, from memory: above 0 what is suspect takes no part
+  double min_parallax_px = 0.5;     ///< ... and at most so far off, a simpler motion explains them; 0: is not asked
+  double rotation_share = 0.8;      ///< of what F explains: `rotation_only`; two axes of noise against one
+  double planar_share = 0.9;        ///< of the inliers on one plane: degenerate; > 1: not asked
+  std::size_t min_depths = 3;       ///< inliers with depth at both ends that give t its length
+  double pixel_sigma_px = 1.0;      ///< of a match, for the noise of the scale
+  bool printed_eq3 = false;         ///< E = K F Kᵀ, as printed
+  bool unit_translation = false;    ///< leaves ‖t‖ = 1, as printed: Eq. 6 then has a false offset
+  float least_static_prior = 0.0f;  ///< of a candidate, from memory
   std::uint64_t seed = Random::kDefaultSeed;
 };
 
@@ -52,7 +52,7 @@ void each_option(EpipolarOptions& options, Visit& visit) {
   visit("pixel_sigma_px", options.pixel_sigma_px, OptionRange{0.01, 100});
   visit("printed_eq3", options.printed_eq3);
   visit("unit_translation", options.unit_translation);
-  visit("least_trust", options.least_trust, OptionRange{0, 1});
+  visit("least_static_prior", options.least_static_prior, OptionRange{0, 1});
   visit.seed("seed", options.seed);
 }
 

@@ -9,7 +9,7 @@
 
 namespace stillpoint {
 
-/// `EpipolarMotion` that claims no metres (`Motion::metric` is false) and takes no part of what memory suspects.
+/// `EpipolarMotion` that claims no metres (`Motion::metric` is false) and leaves out features of a low static prior.
 class MonocularMotion : public EpipolarMotion {
  public:
   using Needs = Capabilities<capability::matches>;
@@ -17,7 +17,7 @@ class MonocularMotion : public EpipolarMotion {
 
   MonocularMotion() {
     options.unit_translation = true;
-    options.least_trust = 0.5f;
+    options.least_static_prior = 0.5f;
     options.threshold_px = 0.5;
     options.min_inlier_share = 0.5;  // of what lies in no box: fewer are no world, and the frame is kept as it is
   }

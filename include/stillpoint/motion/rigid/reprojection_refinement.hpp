@@ -111,7 +111,7 @@ class FrameEquations {
 /// @param poses    one reference_from_current for each older frame, updated
 /// @param cutoffs  one iteration each, sigmas; falling values anneal
 /// @return         the information matrix of x, in the coordinates of `Motion::covariance`; zero when there was no
-///                 step to be had, and the poses are as they were. O(constraints) an iteration.
+///                 step, and the poses are as they were. O(constraints) per iteration.
 template <class Camera>
 Matrix6d refine_reprojection(span<const PointConstraint> points, span<const PlaneConstraint> planes, span<Pose> poses,
                              span<const double> cutoffs, const Camera& camera) {

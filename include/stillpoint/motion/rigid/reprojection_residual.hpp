@@ -24,7 +24,7 @@ struct PointConstraint {
   double depth_m = 0;                 ///< what the older frame measured there, metres
   double depth_slope = 0;             ///< 1 / σ of the difference of both depths, per metre; 0: no depth was measured
   double weight = 1;                  ///< 0 to 1
-  double unsuspected_weight = 1;      ///< what it would be if what moved once stood now
+  double weight_without_prior = 1;    ///< the same without the static prior
   std::size_t frame = 0;              ///< which older frame
 
   bool has_depth() const noexcept { return depth_slope > 0; }
@@ -36,7 +36,7 @@ struct PlaneConstraint {
   Vector3d target = Vector3d::Zero();  ///< on the older frame's surface, in that camera
   Vector3d slope = Vector3d::Zero();   ///< of the surface, in that camera: its normal over the distance's σ, per metre
   double weight = 1;
-  double unsuspected_weight = 1;
+  double weight_without_prior = 1;
   std::size_t frame = 0;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Does the camera stand?   Corners at rest are no coincidence: a mover hides no wall, however much of the view it
+// Is the camera stationary?   Corners at rest are no coincidence: a mover hides no wall, however much of the view it
 // fills.
 
 #include <cstddef>
@@ -12,9 +12,9 @@
 
 namespace stillpoint {
 
-/// A camera that stands has exactly no motion, which needs far less support than one that was estimated: a moving
-/// camera leaves nothing at rest but what is fixed to it, and that lies before the world, not behind. Without this, who
-/// stands close before the lens and sways takes the pose along.
+/// A stationary camera has exactly no motion, which needs far less support than one that was estimated: a moving camera
+/// leaves nothing at rest but what is fixed to it, and that lies before the world, not behind. Without this, a person
+/// who stands close before the lens and sways takes the pose along.
 struct StationaryCamera {
   bool is_enabled = true;  ///< false: no camera is taken for stationary; no option in files
 
@@ -34,8 +34,8 @@ struct StationaryCamera {
     return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm() < kRest_px;
   }
 
-  /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: what creeps
-  /// is at rest from frame to frame.
+  /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: a slow
+  /// motion is at rest from frame to frame.
   bool since_older_frames(const Observations& observations) const {
     const Matches& matches = observations.matches;
     const OlderFrame* oldest = nullptr;
@@ -70,7 +70,7 @@ struct StationaryCamera {
     void count(bool at_rest, const Observations& observations, std::size_t i) {
       const FrameFeatures& current = observations.matches.current;
       Group& group = at_rest ? resting : moving;
-      const auto weight = static_cast<double>(observations.remembered.trust[i]);
+      const auto weight = static_cast<double>(observations.remembered.static_prior[i]);
       group.weight += weight;
       if (!current.has_depth(i)) return;
       group.with_depth += weight;

@@ -22,9 +22,9 @@ namespace stillpoint {
 
 /// Makes constraints of matches. Support is by area: one corner a grid cell, and a grid of surface cells.
 struct SupportConstraints {
-  double pixel_sigma = 1.0;     ///< of a followed corner, pixels
-  double depth_sigmas = 1.5;    ///< measured depth noise over the model's
-  double dynamic_trust = 0.15;  ///< weight of what lies in a dynamic region
+  double pixel_sigma = 1.0;             ///< of a followed corner, pixels
+  double depth_sigmas = 1.5;            ///< measured depth noise over the model's
+  double dynamic_region_weight = 0.15;  ///< of a feature in a dynamic region
 
   // No option in files.
   double surface_weight = 0.8;  ///< of a surface cell: depth errors of neighbours are not independent
@@ -93,8 +93,8 @@ struct SupportConstraints {
         const double sigma_m =
             depth_sigma_m(cell.depth_sigma_m, observation.depth_sigma_m) * std::abs(cell.normal.z()) + kDepthFloor_m;
         plane.slope = rotation_of(frames[f].reference_from_current) * cell.normal / sigma_m;
-        plane.unsuspected_weight = surface_weight;
-        plane.weight = surface_weight * static_cast<double>(observations.remembered.surface_trust[s]);
+        plane.weight_without_prior = surface_weight;
+        plane.weight = surface_weight * static_cast<double>(observations.remembered.surface_static_prior[s]);
         plane.frame = f;
       }
     }
@@ -102,8 +102,8 @@ struct SupportConstraints {
   }
 
  private:
-  static constexpr double kMovableTrust = 0.6;     // weight of what lies in a movable region: a chair seldom moves
-  static constexpr double kDepthFloor_m = 0.003;   // what is left when the noise model's is nothing
+  static constexpr double kMovableRegionWeight = 0.6;  // a chair seldom moves
+  static constexpr double kDepthFloor_m = 0.003;       // what is left when the noise model's is nothing
   static constexpr double kDepthlessSpread = 0.3;  // standard deviation of an unknown inverse depth, of the median one
   static constexpr float kMostDissimilar = 0.25f;  // an observation that is less alike says nothing of the motion
 
@@ -111,16 +111,16 @@ struct SupportConstraints {
     return depth_sigmas * std::sqrt(here_m * here_m + there_m * there_m);
   }
 
-  /// What moves by the log-odds of the last frames says less at once: a box that creeps is found long before it is
-  /// suspect, and would pull the motion along until then. Nor is it taken for parked.
+  /// Features that move by the log-odds of the last frames lose weight at once: a slow box is found long before its
+  /// dynamic prior rises, and would pull the motion along until then. Nor is it taken for parked.
   void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const noexcept {
     const Membership& region = observations.regions.of_feature[i];
-    const double by_region = region.in_dynamic ? dynamic_trust : region.in_movable ? kMovableTrust : 1.0;
+    const double by_region = region.in_dynamic ? dynamic_region_weight : region.in_movable ? kMovableRegionWeight : 1.0;
     const auto log_odds = static_cast<double>(observations.remembered.log_odds[i]);
     const bool moves = log_odds > 0;
     const double stands = moves ? 2.0 / (1.0 + std::exp(log_odds)) : 1.0;  // its probability over that at even odds
-    point.weight = by_region * stands * static_cast<double>(observations.remembered.trust[i]);
-    point.unsuspected_weight = moves ? point.weight : by_region;
+    point.weight = by_region * stands * static_cast<double>(observations.remembered.static_prior[i]);
+    point.weight_without_prior = moves ? point.weight : by_region;
   }
 
   PointConstraint at_depth(const Observations& observations, std::size_t i, const Vector2d& pixel, double seen_depth_m,
@@ -168,7 +168,7 @@ template <class Visit>
 void each_option(SupportConstraints& constraints, Visit& visit) {
   visit("pixel_sigma", constraints.pixel_sigma, OptionRange{0.01, 100});
   visit("depth_sigmas", constraints.depth_sigmas, OptionRange{0.01, 100});
-  visit("dynamic_trust", constraints.dynamic_trust, OptionRange{0, 1});
+  visit("dynamic_region_weight", constraints.dynamic_region_weight, OptionRange{0, 1});
   if constexpr (sees_code_only<Visit>::value) {
     visit("surface_weight", constraints.surface_weight, OptionRange{0, 100});
     visit("host_cell_px", constraints.host_cell_px, OptionRange{0, 1e4});

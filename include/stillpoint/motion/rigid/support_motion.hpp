@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// How did the camera move?   Robust against dynamic majorities: support by area, trust from memory, the recent past as
-// the first hypothesis.
+// How did the camera move?   Robust against dynamic majorities: support by area, a static prior from memory, the recent
+// past as the first hypothesis.
 
 #include <algorithm>
 #include <array>
@@ -32,9 +32,9 @@
 namespace stillpoint {
 
 /// The ego-motion of `DefaultPolicies`. Two hypotheses compete: the motion expected from the past, pulled to the
-/// nearest consensus, and the best of many minimal samples, drawn by trust. Where they differ, the past wins as long as
-/// it explains enough (`consensus_inverted`): what moves with the majority may be a person before the camera. A camera
-/// that stands has no motion at all.
+/// nearest consensus, and the best of many minimal samples, drawn by weight. Where they differ, the past wins as long
+/// as it explains enough (`consensus_inverted`): the majority may be a person before the camera. A stationary camera
+/// has no motion at all.
 class SupportMotion {
  public:
   using Needs = Capabilities<capability::matches, capability::metric_depth>;
@@ -86,10 +86,10 @@ class SupportMotion {
         differ && knows_past &&
         problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
             past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
-    const Hypothesis& trusted = sampled.support > past.support && !is_inverted ? sampled : past;
+    const Hypothesis& selected = sampled.support > past.support && !is_inverted ? sampled : past;
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
-                        nothing_creeps(points, features, matches, camera, workspace);
-    const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_suspects(trusted, kAgainCutoffs, problem);
+                        has_no_slow_motion(points, features, matches, camera, workspace);
+    const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, kAgainCutoffs, problem);
 
     motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
     const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
@@ -119,12 +119,12 @@ class SupportMotion {
     if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
     auto problem = problem_of(points, frames, observations, camera, workspace);
     calibrate(frames[0].reference_from_current, problem, workspace);
-    Hypothesis trusted;
-    trusted.reference_from_current = frames[0].reference_from_current;
-    trusted.information = problem.refine(trusted.reference_from_current, kNearCutoffs);
-    if (trusted.information.isZero()) return;
-    trusted.support = problem.support(trusted.reference_from_current);
-    const Hypothesis chosen = with_suspects(trusted, kNearCutoffs, problem);
+    Hypothesis weighted;
+    weighted.reference_from_current = frames[0].reference_from_current;
+    weighted.information = problem.refine(weighted.reference_from_current, kNearCutoffs);
+    if (weighted.information.isZero()) return;
+    weighted.support = problem.support(weighted.reference_from_current);
+    const Hypothesis chosen = with_all_points(weighted, kNearCutoffs, problem);
     Matrix6d information = chosen.information;
     const Pose step = inverted(chosen.reference_from_current) * frames[0].reference_from_current;
     Pose refined = orthonormalized(step * motion.current_from_reference);
@@ -137,12 +137,12 @@ class SupportMotion {
   }
 
  private:
-  static constexpr double kConfidence = 0.9996;     // of not missing what explains more than the past
-  static constexpr double kSameMotion_px = 1.0;     // hypotheses that move the matches less apart on average are one
-  static constexpr double kLeastSupport = 0.08;     // share of all weight that the motion must explain
-  static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
-  static constexpr double kMostTrustedLoss = 12.6;  // χ²₆ at 95 %: what suspects in full may cost the trusted
-  static constexpr double kCreepGain = 60.0;        // squared sigmas by which a motion must beat the identity
+  static constexpr double kConfidence = 0.9996;    // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;    // hypotheses that move the matches less apart on average are one
+  static constexpr double kLeastSupport = 0.08;    // share of all weight that the motion must explain
+  static constexpr double kSureSupport = 0.4;      // less is doubtful where depths do not fit near what is expected
+  static constexpr double kMostPriorLoss = 12.6;   // 95 % quantile of χ²₆: what all points at full weight may cost
+  static constexpr double kSlowMotionGain = 60.0;  // squared sigmas by which a motion must beat the identity
   static constexpr double kLeastPixelSigma =
       0.1;  // of the measured noise, pixels; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
@@ -158,7 +158,7 @@ class SupportMotion {
     double support = 0;
   };
 
-  /// Points, and the surfaces that a choose_keyframes has found in these frames, if there was one.
+  /// Points, and the surfaces that were found in these frames, if there are any.
   template <class Camera>
   SupportProblem<Camera> problem_of(span<PointConstraint> points, span<const OlderFrame> frames,
                                     const Observations& observations, const Camera& camera,
@@ -174,8 +174,8 @@ class SupportMotion {
 
   /// Is what is at rest better explained by a motion too small to see in any corner by itself?
   template <class Camera>
-  bool nothing_creeps(span<const PointConstraint> points, span<const std::uint32_t> features, const Matches& matches,
-                      const Camera& camera, Workspace& workspace) const {
+  bool has_no_slow_motion(span<const PointConstraint> points, span<const std::uint32_t> features,
+                          const Matches& matches, const Camera& camera, Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
     std::size_t count = 0;
@@ -184,8 +184,8 @@ class SupportMotion {
     Pose poses[2] = {Pose::Identity(), Pose::Identity()};
     SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
     calibrate(Pose::Identity(), problem, workspace);
-    const Hypothesis crept = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
-    return problem.squared_residuals_of(crept.support - problem.support(Pose::Identity())) < kCreepGain;
+    const Hypothesis moved = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    return problem.squared_residuals_of(moved.support - problem.support(Pose::Identity())) < kSlowMotionGain;
   }
 
   /// No motion, as well known as the support allows.
@@ -196,20 +196,20 @@ class SupportMotion {
     return hypothesis;
   }
 
-  /// The motion with suspects in full, where the trusted do not object: what was seen moving is parked, and its points
-  /// are as good as any. Where they object, the trusted hypothesis as it is. The loss of the trusted has a χ²
-  /// distribution of six degrees of freedom if all stand still: its 95 % quantile is the most that they may lose. What
-  /// has just started moves a few trusted corners by less than their noise, and would take the motion along.
+  /// The motion with all points at full weight, where the support weighted by the static prior hardly falls: objects
+  /// that moved before are parked, and their points are as good as any. Else the weighted hypothesis as it is. If all
+  /// points are static, the loss has a χ² distribution of six degrees of freedom: its 95 % quantile is the most. An
+  /// object that has just started moves a few corners by less than their noise, and would take the motion along.
   template <class Camera>
-  Hypothesis with_suspects(const Hypothesis& trusted, span<const double> cutoffs,
-                           SupportProblem<Camera>& problem) const {
-    Hypothesis all = trusted;
-    problem.swap_trust();
+  Hypothesis with_all_points(const Hypothesis& weighted, span<const double> cutoffs,
+                             SupportProblem<Camera>& problem) const {
+    Hypothesis all = weighted;
+    problem.swap_weights();
     all.information = problem.refine(all.reference_from_current, cutoffs);
-    problem.swap_trust();
-    if (all.information.isZero()) return trusted;
+    problem.swap_weights();
+    if (all.information.isZero()) return weighted;
     all.support = problem.support(all.reference_from_current);
-    return problem.squared_residuals_of(trusted.support - all.support) < kMostTrustedLoss ? all : trusted;
+    return problem.squared_residuals_of(weighted.support - all.support) < kMostPriorLoss ? all : weighted;
   }
 
   static bool any_depth(const Matches& matches) noexcept {

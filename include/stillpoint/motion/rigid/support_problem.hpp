@@ -45,25 +45,25 @@ class SupportProblem {
 
   span<const PointConstraint> points() const noexcept { return points_; }
 
-  /// To the weights as if what moved once stood now; a second call goes back.
-  void swap_trust() noexcept {
-    for (PointConstraint& point : points_) std::swap(point.weight, point.unsuspected_weight);
-    for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.unsuspected_weight);
+  /// Exchanges the weights with those without the static prior; a second call goes back.
+  void swap_weights() noexcept {
+    for (PointConstraint& point : points_) std::swap(point.weight, point.weight_without_prior);
+    for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.weight_without_prior);
   }
 
-  /// Measures the noise of the trusted points, from the medians of their residuals, and sets it for all. Of those that
-  /// have a depth: without one the residual has other degrees of freedom.
+  /// Measures the noise of the likely static points, from the medians of their residuals, and sets it for all. Of those
+  /// that have a depth: without one the residual has other degrees of freedom.
   /// @param least, most  what is measured is held within these
-  /// @return             most pixel noise and least depth noise where nothing is trusted
+  /// @return             most pixel noise and least depth noise where no point is likely static
   SupportNoise calibrate(const Pose& pose, const SupportNoise& least, const SupportNoise& most, Workspace& workspace) {
-    constexpr double kTrusted = 0.5;  // weight
+    constexpr double kLikelyStatic = 0.5;  // weight
     const Workspace::Scope scope(workspace);
     const span<double> squared_px = workspace.take<double>(points_.size());
     const span<double> squared_depth = workspace.take<double>(points_.size());
     std::size_t count = 0;
     spread(pose);
     for (const PointConstraint& point : points_) {
-      if (!(point.weight > kTrusted) || !point.has_depth()) continue;
+      if (!(point.weight > kLikelyStatic) || !point.has_depth()) continue;
       const PointResidual<double> residual(poses_[point.frame], camera_, point);
       if (!std::isfinite(residual.squared)) continue;
       squared_px[count] = residual.squared_px * point.pixel_sigma * point.pixel_sigma;
@@ -141,7 +141,7 @@ class SupportProblem {
   double squared_residuals_of(double support_loss) const noexcept { return support_loss * limit_; }
 
   /// Moves a pose to the best explanation near by.
-  /// @return the information matrix, zero when there was no step to be had
+  /// @return the information matrix, zero when there is no step
   Matrix6d refine(Pose& pose, span<const double> cutoffs) const {
     spread(pose);
     const Matrix6d information = refine_reprojection(points_, planes_, poses_, cutoffs, camera_);
