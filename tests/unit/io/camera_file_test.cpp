@@ -97,16 +97,17 @@ TEST(ReadCamera, NamesAMissingField) {
 
 TEST(ReadCamera, NamesAValueThatMakesNoSense) {
   EXPECT_EQ(message_of(yaml({{"fx", "wide"}})), "fx is not a number, expected a positive focal length in pixels");
-  EXPECT_EQ(message_of(yaml({{"fy", "-5"}})), "fy is -5.000000, expected a positive focal length in pixels");
+  EXPECT_EQ(message_of(yaml({{"fy", "-5"}})), "fy is -5, expected a positive focal length in pixels");
   EXPECT_EQ(message_of(yaml({{"cx", ".Nan"}})), "cx is not finite, expected a finite principal point in pixels");
   EXPECT_EQ(message_of(yaml({{"cy", "[1, 2]"}})), "cy is not a number, expected a finite principal point in pixels");
   EXPECT_EQ(message_of(yaml({{"width", "640.5"}})),
-            "width is 640.500000, expected a whole number of pixels from 1 to 65535");
-  EXPECT_EQ(message_of(yaml({{"height", "0"}})),
-            "height is 0.000000, expected a whole number of pixels from 1 to 65535");
+            "width is 640.5, expected a whole number of pixels from 1 to 65535");
+  EXPECT_EQ(message_of(yaml({{"height", "0"}})), "height is 0, expected a whole number of pixels from 1 to 65535");
   EXPECT_EQ(message_of(yaml({{"width", "1e12"}})).substr(0, 9), "width is ");
   EXPECT_EQ(message_of(yaml({{"depth_factor", "0"}})),
-            "depth_factor is 0.000000, expected the positive number that a depth image counts per metre");
+            "depth_factor is 0, expected the positive number that a depth image counts per metre");
+  EXPECT_EQ(message_of(yaml({{"depth_factor", "-1e-9"}})),
+            "depth_factor is -1e-09, expected the positive number that a depth image counts per metre");
   EXPECT_EQ(message_of(yaml({{"depth_factor", "1e9"}})),
             "depth_factor is 1e+09, expected what a depth image counts per metre: 0.001 to 1000000");
 }
@@ -173,7 +174,7 @@ TEST(ReadImageCamera, NeedsNoDepthFactorAndTakesABaseline) {
   EXPECT_EQ(without_line(error_of([&] {
               read({{"baseline_m", "-0.1"}});
             })),
-            where + "baseline_m is -0.100000, expected the positive distance of the two cameras in metres");
+            where + "baseline_m is -0.1, expected the positive distance of the two cameras in metres");
   EXPECT_EQ(error_of([&] { read({{"fx", ""}}); }), where + "fx is missing, expected a positive focal length in pixels");
 }
 
