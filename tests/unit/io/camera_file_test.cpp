@@ -129,6 +129,42 @@ TEST(ReadCamera, NamesAModelOrCoefficientThatDoesNotFit) {
             "p2 is given with model equidistant, expected k1 k2 k3 k4");
 }
 
+TEST(ReadCamera, NamesTheCoefficientsOfAnotherLens) {
+  const Fields brown = {{"k1", "0.1"}, {"k2", "-0.2"}, {"p1", "0.003"}, {"p2", "-0.004"}};
+  const Fields fisheye = {{"model", "equidistant"}, {"k1", "0.1"}, {"k2", "0.2"}, {"k3", "0.3"}, {"k4", "0.4"}};
+  const auto with = [](Fields fields, const char* name) {
+    fields[name] = "0.5";
+    return message_of(yaml(fields));
+  };
+  for (const std::string name : {"k4", "k5", "k6", "k12", "p3"})  // a rational lens, and one with more tangential terms
+    for (const std::string model : {"", "brown_conrady"}) {
+      Fields fields = brown;
+      fields["model"] = model;
+      EXPECT_EQ(with(fields, name.c_str()),
+                name + " is given with model brown_conrady, expected k1 k2 p1 p2 and optionally k3");
+    }
+  for (const std::string name : {"p1", "p2", "p3", "k5", "k6"})
+    EXPECT_EQ(with(fisheye, name.c_str()), name + " is given with model equidistant, expected k1 k2 k3 k4");
+  EXPECT_EQ(with({{"model", "pinhole"}}, "k5"),
+            "k5 is given with model pinhole, expected a pinhole to have no coefficients");
+  EXPECT_EQ(with({}, "k5"), "k5 is given without a model, expected model: pinhole, brown_conrady or equidistant");
+}
+
+TEST(ReadCamera, NamesALensThatIsSpelledOtherwise) {
+  const std::string expected =
+      " is not read, expected k1 k2 p1 p2 and optionally k3, or model: equidistant and k1 k2 k3 k4";
+  for (const std::string name : {"K1", "K6", "distortion", "Distortion", "dist", "D", "d", "dist_coeffs", "distCoeffs",
+                                 "distortion_coefficients", "distortion_coeffs", "coeffs"})
+    for (const char* model : {"", "pinhole", "equidistant"})
+      EXPECT_EQ(message_of(yaml({{name, "[0.1, 0.2, 0, 0]"}, {"model", model}})), name + expected);
+}
+
+TEST(ReadCamera, FieldsOfOtherProgramsAreNoLens) {
+  for (const std::string name : {"Camera.k1", "Camera.fps", "K", "P", "P0", "R", "k", "p", "kf1", "dt", "distance_m",
+                                 "distortion_model", "camera_model", "ThDepth", "ORBextractor.nFeatures", "note"})
+    EXPECT_EQ(camera_of({{name, "[0.1, 0.2]"}}).camera.fx(), 525.0) << name;
+}
+
 TEST(ReadCamera, FileThatIsNoYamlIsNamed) {
   for (const std::string& text :
        {std::string("[fx, fy]\n"), std::string(), std::string("\x01\x02\xff", 3),
