@@ -39,8 +39,7 @@ class Tally {
     const Pose truth = frame.world_from_camera->inverse() * *last->world_from_camera;
     const Pose error = truth.inverse() * *current_from_last;
     error_mm_.push_back(1e3 * error.translation().norm());
-    constexpr double kDegrees = 57.29577951308232;
-    error_deg_.push_back(kDegrees * Eigen::AngleAxisd(orthonormalized(error).linear()).angle());
+    error_deg_.push_back(kDegreesPerRadian * Eigen::AngleAxisd(orthonormalized(error).linear()).angle());
   }
 
   Outcome outcome() {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
@@ -89,14 +90,13 @@ struct PoseError {
 
   PoseError() = default;
   PoseError(const Pose& found, const Pose& truth)
-      : rotation_deg(kDegrees * rotation_angle(found.linear() * truth.linear().transpose())),
-        direction_deg(kDegrees * line_angle(found.translation(), truth.translation())),
+      : rotation_deg(kDegreesPerRadian * rotation_angle(found.linear() * truth.linear().transpose())),
+        direction_deg(kDegreesPerRadian * line_angle(found.translation(), truth.translation())),
         translation_m((found.translation() - truth.translation()).norm()) {}
 
   static double line_angle(const Vector3d& a, const Vector3d& b) {
     return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
   }
-  static constexpr double kDegrees = 57.29577951308232;
 };
 
 /// Of the nearest of the motions that a fundamental matrix of pixels stands for.

@@ -11,6 +11,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -104,6 +105,7 @@ void run(const Options& options) {
   const std::string json = report_json(options, record, figures, stages);
   const std::string html = report_html(options, record, figures, source->camera(), roll);
 
+  if (video) video->commit();
   stillpoint::write_trajectory(options.out / "trajectory.txt", record.filtered);
   stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
   if (record.map) {
@@ -113,7 +115,6 @@ void run(const Options& options) {
   }
   features.commit();
   frames.commit();
-  if (video) video->commit();
   if (movers) movers->commit();
   if (!yaml.empty()) write_whole(options.out / "options.yaml", yaml);
   write_whole(options.out / "report.json", json);
@@ -145,6 +146,7 @@ void flush_output() {
 int main(int argument_count, char** arguments) {
   constexpr int kFailed = 2;
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // an error is one line, and ours
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);                              // FFmpeg's messages: AV_LOG_QUIET
   try {
     try {
       stillpoint_run::run(stillpoint_run::parse_options(argument_count, arguments));

@@ -20,7 +20,8 @@ namespace stillpoint_shim {
 namespace {
 
 void require(bool holds, const char* name, double found, const char* expected) {
-  if (!holds) throw stillpoint::Error(std::string(name) + " is " + std::to_string(found) + ", expected " + expected);
+  if (!holds)
+    throw stillpoint::Error(std::string(name) + " is " + stillpoint::option_text(found) + ", expected " + expected);
 }
 
 stillpoint::AnyDistortion distortion_of(const Camera& camera) {

@@ -15,6 +15,7 @@
 #include "detector_record.hpp"
 #include "frame_record.hpp"
 #include "map_files.hpp"
+#include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
@@ -124,10 +125,9 @@ inline TrajectoryFigures trajectory_figures(const RunRecord& run, const stillpoi
 
 inline void append_difference(stillpoint::TrajectoryErrors& errors, double timestamp_s,
                               const stillpoint::Pose& difference) {
-  constexpr double kDegreesPerRadian = 57.29577951308232;
   errors.timestamps_s.push_back(timestamp_s);
   errors.translation_m.push_back(difference.translation().norm());
-  errors.rotation_deg.push_back(kDegreesPerRadian * stillpoint::rotation_angle(difference.linear()));
+  errors.rotation_deg.push_back(stillpoint::kDegreesPerRadian * stillpoint::rotation_angle(difference.linear()));
 }
 
 /// Lays both trajectories on the reference by the alignment of the better one: they start at the same pose, so that

@@ -8,15 +8,42 @@
 #include <opencv2/videoio.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <ios>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/image_folder.hpp"
+#include "stillpoint/io/whole_video.hpp"
 
 namespace stillpoint_run {
+
+/// How many frames can be read of a video; 0 where it cannot be opened. A last frame that breaks off may be counted.
+inline std::size_t count_frames(const std::filesystem::path& file) {
+  std::size_t frames = 0;
+  try {
+    cv::VideoCapture video(file.string());
+    while (video.isOpened() && video.grab()) ++frames;
+  } catch (const cv::Exception&) {  // some of OpenCV's readers throw, others say no
+  }
+  return frames;
+}
+
+/// Whether the file states its size and has as many bytes. An encoder writes the size last, so it is missing after a
+/// failed write.
+inline bool states_its_size(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(file, error);
+  std::ifstream stream(file, std::ios::binary);
+  if (error || !stream) return false;
+  const std::uint64_t stated = stillpoint::detail::stated_size(stream, size);
+  return stated > 0 && stated <= size;
+}
 
 /// Writes MPEG-4 into .mp4 and Motion JPEG into .avi: to a temporary file beside the target ("out.partial.mp4"), which
 /// gets the target's name on `commit()`. Without it the destructor removes what was written.
@@ -38,6 +65,7 @@ class VideoFile {
   /// @param image  CV_8UC3, of the same size each time
   /// @throws stillpoint::Error where there is no encoder or no place to write
   void write(const cv::Mat& image, double time_s) {
+    ++frames_;
     if (writer_.isOpened()) return writer_.write(image);
     if (first_.empty()) {
       first_ = image.clone();
@@ -49,13 +77,20 @@ class VideoFile {
     writer_.write(image);
   }
 
-  /// Gives the video its name.
+  /// Gives the video its name. cv::VideoWriter reports no failed write: the file is read back first.
+  /// @throws stillpoint::Error where it has fewer frames than were written, or cannot be renamed
   void commit() {
     if (!writer_.isOpened() && !first_.empty()) {
       open(stillpoint::kAssumedFrameRate_hz);
       writer_.write(first_);
     }
     writer_.release();
+    const std::size_t readable = count_frames(temporary_);
+    const bool is_finished = states_its_size(temporary_);
+    if (readable < frames_ || !is_finished)
+      throw stillpoint::Error(target_.string() + ": cannot write the video: found " + std::to_string(readable) +
+                              " frames in the file" + (is_finished ? "" : ", which breaks off") + "; expected the " +
+                              std::to_string(frames_) + " that were written (is the disk full?)");
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
     if (error) throw stillpoint::Error(target_.string() + ": cannot write the video: " + error.message());
@@ -86,6 +121,7 @@ class VideoFile {
   cv::VideoWriter writer_;
   cv::Mat first_;
   double first_s_ = 0.0;
+  std::size_t frames_ = 0;
   bool is_committed_ = false;
 };
 

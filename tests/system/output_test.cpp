@@ -353,6 +353,20 @@ TEST(DemoChoices, AVideoIsWholeOrNotThere) {
   EXPECT_EQ(files_in(folder / ""), (std::vector<std::string>{"out", "video.avi", "video.mp4"})) << "nothing partial";
 }
 
+// A limit on the size of files fails writes as a full disk does.
+TEST(DemoChoices, AVideoThatBreaksOffIsNoVideo) {
+  const std::string limit = "ulimit -f 400; trap '' XFSZ; ";  // blocks of 512 bytes: 200 kB
+  for (const char* name : {"video.avi", "video.mp4"}) {
+    const TemporaryFolder folder;
+    expect_error("--demo --quiet --frames 10 --features 50 --out " + quoted(folder / "out") + " --save-video " +
+                     quoted(folder / name),
+                 {(folder / name).string() + ": cannot write the video: found ", "expected the 10 that were written"},
+                 limit);
+    EXPECT_EQ(files_in(folder / ""), (std::vector<std::string>{"out"})) << "nothing partial";
+    EXPECT_EQ(files_in(folder / "out"), std::vector<std::string>{});
+  }
+}
+
 TEST(DemoChoices, AMissingEncoderIsSaid) {
   const TemporaryFolder folder;
   ASSERT_EQ(setenv("OPENCV_VIDEOIO_PRIORITY_FFMPEG", "0", 1), 0);

@@ -59,9 +59,10 @@ struct Outcome {
 };
 
 /// Runs the program with arguments that the shell reads.
-inline Outcome run_program(const std::string& arguments) {
+/// @param before  commands of the shell that runs it, each with its semicolon
+inline Outcome run_program(const std::string& arguments, const std::string& before = "") {
   const TemporaryFolder folder;
-  const std::string command = std::string("\"") + STILLPOINT_RUN_PROGRAM + "\" " + arguments + " > \"" +
+  const std::string command = before + "\"" + STILLPOINT_RUN_PROGRAM + "\" " + arguments + " > \"" +
                               (folder / "out").string() + "\" 2> \"" + (folder / "error").string() + "\"";
   Outcome outcome;
   const int code = std::system(command.c_str());
@@ -74,8 +75,9 @@ inline Outcome run_program(const std::string& arguments) {
 inline std::string quoted(const fs::path& path) { return '"' + path.string() + '"'; }
 
 /// Expects exit status 2 and one line on standard error that holds each of the texts.
-inline void expect_error(const std::string& arguments, const std::vector<std::string>& texts) {
-  const Outcome outcome = run_program(arguments);
+inline void expect_error(const std::string& arguments, const std::vector<std::string>& texts,
+                         const std::string& before = "") {
+  const Outcome outcome = run_program(arguments, before);
   EXPECT_EQ(outcome.status, 2) << arguments << '\n' << outcome.error;
   EXPECT_TRUE(outcome.out.empty()) << arguments << '\n' << outcome.out;
   EXPECT_EQ(outcome.error.find('\n'), outcome.error.size() - 1) << arguments << '\n' << outcome.error;

@@ -12,6 +12,7 @@
 #include "stillpoint/core/distortion.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/options.hpp"
 
 namespace stillpoint {
 
@@ -74,7 +75,7 @@ class PinholeCamera {
   }
   template <class Value, class = std::enable_if_t<std::is_arithmetic_v<Value>>>
   static void require(bool holds, const char* name, Value found, const char* expected) {
-    require(holds, name, std::to_string(found), expected);
+    require(holds, name, option_text(found), expected);
   }
 
   Vector2d to_plane(const Vector2d& pixel) const noexcept { return {(pixel.x() - cx_) / fx_, (pixel.y() - cy_) / fy_}; }

@@ -47,9 +47,9 @@ struct compaction_traits<
   static void shrink(Matrix& m, std::size_t size) { m.conservativeResize(static_cast<Index>(size), m.cols()); }
 };
 
-/// A row matrix in the manner of `cv::Mat`: `rows`, `rowRange`, `row(i).copyTo`, `resize`. The header is narrowed to
-/// the kept rows, none of which leaves columns and type: its memory is not given back, and other headers that share it
-/// see its rows moved.
+/// A row matrix in the manner of `cv::Mat`: `rows`, `rowRange`, `row(i).copyTo`, `resize`. `resize` makes the header
+/// shorter and leaves columns and type as they are. The memory is not freed, and other headers that share it see the
+/// moved rows.
 template <class Matrix>
 struct compaction_traits<Matrix, typename detail::void_if_valid<decltype(std::declval<Matrix&>().rowRange(0, 0)),
                                                                 decltype(std::declval<Matrix&>().row(0).copyTo(

@@ -35,6 +35,9 @@ inline Pose make_pose(const Matrix3d& rotation, const Vector3d& translation) {
   return pose;
 }
 
+/// For messages and figures; the library computes in radians.
+inline constexpr double kDegreesPerRadian = 57.29577951308232;
+
 /// A small motion x = (ω, v): rotation vector, translation.
 inline Vector3d rotation_part(const Vector6d& x) { return {x(0), x(1), x(2)}; }
 inline Vector3d translation_part(const Vector6d& x) { return {x(3), x(4), x(5)}; }

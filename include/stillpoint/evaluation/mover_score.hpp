@@ -173,10 +173,7 @@ class MoverScore {
     }
   }
 
-  static double degrees(const Pose& pose) {
-    constexpr double kPerRadian = 57.29577951308232;
-    return kPerRadian * rotation_angle(pose.linear());
-  }
+  static double degrees(const Pose& pose) { return kDegreesPerRadian * rotation_angle(pose.linear()); }
 
   std::vector<Track> tracks_;
   std::vector<MoverFigures> figures_;

@@ -38,9 +38,8 @@ struct CalibratedNoise {
   bool has_depth() const noexcept { return !depth.empty(); }
 };
 
-/// Gathers, frame by frame, how far static points are from where the motion takes them. It needs a camera that moves
-/// slowly: on a tripod a structured-light sensor repeats its errors, and in a quick turn pixels are worse than they
-/// are.
+/// Gathers, frame by frame, how far static points are from where the motion takes them. The camera must move
+/// slowly: on a tripod a structured-light sensor repeats its errors, and in quick turns pixels are noisier than usual.
 class NoiseCalibration {
  public:
   struct Options {

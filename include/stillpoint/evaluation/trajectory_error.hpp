@@ -56,8 +56,6 @@ struct RelativeErrorOptions {
 
 namespace detail {
 
-constexpr double kDegreesPerRadian = 57.29577951308232;
-
 inline void append_error(TrajectoryErrors& errors, double timestamp_s, const Pose& error) {
   errors.timestamps_s.push_back(timestamp_s);
   errors.translation_m.push_back(error.translation().norm());

@@ -28,8 +28,7 @@ class AtomicFile {
     std::error_code ignored;
     if (std::filesystem::is_directory(target_, ignored))
       throw Error(target_.string() + ": found a folder, expected a file to write");
-    // A name that exists belongs to another process or was left by a dead one: either way it is not ours to touch.
-    // There are as many names as it takes.
+    // A file that exists may belong to another process, so it is never opened: the next number is tried.
     for (std::size_t attempt = 0; file_ == nullptr; ++attempt) {
       temporary_ = target_;
       temporary_ += ".partial" + std::to_string(attempt);

@@ -5,6 +5,7 @@
 // The camera of a sequence: from camera.yaml, or for an original folder of the TUM benchmark from the folder's name.
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -37,14 +38,40 @@ struct ImageCamera {
 
 namespace detail {
 
+/// Whether a field has the name of a coefficient, of this lens or another: k or p, and a number.
+inline bool is_coefficient(std::string_view name) {
+  return name.size() > 1 && (name[0] == 'k' || name[0] == 'p') &&
+         name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+/// Whether a field names a lens in another way: K1, D, a list of coefficients.
+inline bool is_foreign_lens(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const bool is_capital = is_coefficient(name) && name[0] == 'k';  // P1 may be a projection matrix
+  return is_capital || name == "d" || name == "dist" || name == "distortion" || name.find("coef") != std::string::npos;
+}
+
+/// Refuses every coefficient but those of the model.
+inline void require_coefficients_of(const YamlFile& fields, std::string_view model, const char* own,
+                                    const char* expected) {
+  for (const YamlNode& field : fields.root().entries)
+    if (is_coefficient(field.name) && (' ' + std::string(own) + ' ').find(' ' + field.name + ' ') == std::string::npos)
+      fields.fail(field.name, "is given with model " + std::string(model), expected);
+}
+
 inline AnyDistortion read_distortion(const YamlFile& fields) {
   static constexpr const char* kModels = "pinhole, brown_conrady or equidistant";
   const auto coefficient = [&fields](const char* name) {
     return fields.number(name, "a coefficient of the lens model");
   };
   std::string given;
-  for (const char* name : {"k1", "k2", "p1", "p2", "k3", "k4"})
-    if (given.empty() && fields.has(name)) given = name;
+  for (const YamlNode& field : fields.root().entries) {
+    if (is_coefficient(field.name)) {
+      if (given.empty()) given = field.name;
+    } else if (is_foreign_lens(field.name)) {
+      fields.fail(field.name, "is not read", "k1 k2 p1 p2 and optionally k3, or model: equidistant and k1 k2 k3 k4");
+    }
+  }
 
   std::string model = "pinhole";
   if (fields.has("model")) {
@@ -55,17 +82,16 @@ inline AnyDistortion read_distortion(const YamlFile& fields) {
     fields.fail(given, "is given without a model", std::string("model: ") + kModels);
   }
   if (model == "pinhole") {
-    if (!given.empty()) fields.fail(given, "is given with model pinhole", "a pinhole to have no coefficients");
+    require_coefficients_of(fields, model, "", "a pinhole to have no coefficients");
     return {NoDistortion{}};
   }
   if (model == "brown_conrady") {
-    if (fields.has("k4")) fields.fail("k4", "is given with model brown_conrady", "k1 k2 p1 p2 and optionally k3");
+    require_coefficients_of(fields, model, "k1 k2 p1 p2 k3", "k1 k2 p1 p2 and optionally k3");
     const double k3 = fields.has("k3") ? coefficient("k3") : 0.0;
     return {BrownConrady{coefficient("k1"), coefficient("k2"), coefficient("p1"), coefficient("p2"), k3}};
   }
   if (model == "equidistant") {
-    for (const char* name : {"p1", "p2"})
-      if (fields.has(name)) fields.fail(name, "is given with model equidistant", "k1 k2 k3 k4");
+    require_coefficients_of(fields, model, "k1 k2 k3 k4", "k1 k2 k3 k4");
     return {EquidistantFisheye{coefficient("k1"), coefficient("k2"), coefficient("k3"), coefficient("k4")}};
   }
   fields.fail("model", "is '" + model + "'", kModels);
@@ -95,8 +121,10 @@ inline std::optional<double> read_baseline(const YamlFile& fields) {
 /// `depth_factor`; optionally `model` (pinhole, brown_conrady with k1 k2 p1 p2 and optionally k3, or equidistant with
 /// k1 to k4; without it, p1 means brown_conrady and no coefficient a pinhole), and `baseline_m`, the distance in metres
 /// of the two cameras that the depth is from.
+/// Other fields are for other programs and are not looked at.
 /// @throws Error naming file and field, if one is missing or not a number that makes sense, the model is none of the
-///         three, or coefficients are given that the model does not have.
+///         three, or coefficients are given that the model does not have or that are spelled otherwise (`K1`, `D`,
+///         `distortion`, `dist_coeffs`).
 inline RgbdCamera read_camera(const std::filesystem::path& file) {
   const YamlFile fields(file);
   const Camera camera = detail::read_intrinsics(fields);

@@ -16,6 +16,7 @@
 #include "stillpoint/core/distortion.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/camera_file.hpp"
 #include "stillpoint/io/yaml_file.hpp"
 
@@ -87,10 +88,10 @@ inline EurocCamera read_euroc_camera(const std::filesystem::path& file) {
   const auto resolution = detail::number_list(fields, "resolution", fields.find("resolution"), 2, size);
   for (const double pixels : resolution)
     if (!(pixels >= 1 && pixels <= 65535) || pixels != std::floor(pixels))
-      fields.fail("resolution", "holds " + std::to_string(pixels), size);
+      fields.fail("resolution", "holds " + option_text(pixels), size);
   const auto f = detail::number_list(fields, "intrinsics", fields.find("intrinsics"), 4, "fu fv cu cv in pixels");
   if (!(f[0] > 0 && f[1] > 0))
-    fields.fail("intrinsics", "holds " + std::to_string(f[0] > 0 ? f[1] : f[0]), "positive focal lengths in pixels");
+    fields.fail("intrinsics", "holds " + option_text(f[0] > 0 ? f[1] : f[0]), "positive focal lengths in pixels");
   return {Camera(f[0], f[1], f[2], f[3], static_cast<int>(resolution[0]), static_cast<int>(resolution[1]),
                  detail::read_sensor_lens(fields)),
           detail::read_body_from_sensor(fields)};

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cstddef>
 #include <filesystem>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/stereo_images.hpp"
 
@@ -65,7 +67,9 @@ inline bool naturally_less(std::string_view a, std::string_view b) {
   return a < b;  // alike but for leading zeros
 }
 
+/// By the extension. A hidden file is no image: macOS writes `._0000.png` beside `0000.png`.
 inline bool is_image_name(const std::filesystem::path& file) {
+  if (file.filename().string().rfind('.', 0) == 0) return false;
   std::string extension = file.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   for (const char* known : {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".webp"})
@@ -89,6 +93,7 @@ inline std::optional<double> time_of_name(const std::filesystem::path& file) {
   }
 }
 
+/// In the natural order of their names.
 inline std::vector<std::filesystem::path> image_files(const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error))
@@ -108,24 +113,30 @@ inline std::vector<std::filesystem::path> image_files(const std::filesystem::pat
 
 }  // namespace detail
 
-/// Lists the images of a folder in the natural order of their names; sub-folders are not looked at.
-/// @param frame_rate_hz  images per second. Without: the names' times where all have one (see `detail::time_of_name`),
-///                       else `kAssumedFrameRate_hz`. Times by a rate begin at 0.
+/// Lists the images of a folder: in the order of the times in their names where all have one (see
+/// `detail::time_of_name`), else in the natural order of their names. Sub-folders and hidden files are not looked at.
+/// @param frame_rate_hz  images per second. Without: the names' times where all have one, else `kAssumedFrameRate_hz`.
+///                       Times by a rate begin at 0.
 /// @return        at least one image, times rising.
-/// @throws Error if the folder is missing or holds no image, the rate is not positive, or two names tell the same time.
+/// @throws Error if the folder is missing or holds no image, the rate is not positive, or two names tell the same time
+///         and no rate is given.
 inline ImageList read_image_folder(const std::filesystem::path& folder,
                                    std::optional<double> frame_rate_hz = std::nullopt) {
   if (frame_rate_hz && !(*frame_rate_hz > 0))
-    throw Error("frame rate: found " + std::to_string(*frame_rate_hz) +
+    throw Error("frame rate: found " + option_text(*frame_rate_hz) +
                 ", expected a positive number of images per second");
   ImageList list;
-  bool names_tell = !frame_rate_hz;
+  bool names_tell = true;
   for (const std::filesystem::path& file : detail::image_files(folder)) {
     const auto time_s = names_tell ? detail::time_of_name(file) : std::nullopt;
     names_tell = time_s.has_value();
     list.images.push_back({time_s.value_or(0.0), file});
   }
-  if (!names_tell) {
+  // The natural order takes 3 in "0.3" for less than 15 in "0.15".
+  if (names_tell)
+    std::stable_sort(list.images.begin(), list.images.end(),
+                     [](const TimedImage& a, const TimedImage& b) { return a.timestamp_s < b.timestamp_s; });
+  if (frame_rate_hz || !names_tell) {
     list.rate_is_assumed = !frame_rate_hz;
     for (std::size_t i = 0; i < list.images.size(); ++i)
       list.images[i].timestamp_s = static_cast<double>(i) / frame_rate_hz.value_or(kAssumedFrameRate_hz);
@@ -139,22 +150,30 @@ inline ImageList read_image_folder(const std::filesystem::path& folder,
 }
 
 /// Pairs the left images with those of the same name in another folder.
+/// @return        in the order of the left images.
 /// @throws Error if that folder is missing or holds no image; naming the first image that is in one folder only.
 inline std::vector<StereoFrame> pair_with_right_folder(const ImageList& left,
                                                        const std::filesystem::path& right_folder) {
-  std::vector<StereoFrame> frames;
   const std::vector<std::filesystem::path> right = detail::image_files(right_folder);
-  for (std::size_t i = 0; i < std::max(left.images.size(), right.size()); ++i) {
-    const bool has_left = i < left.images.size(), has_right = i < right.size();
-    if (has_left && has_right && left.images[i].file.filename() == right[i].filename()) {
-      frames.push_back({left.images[i].timestamp_s, left.images[i].file, right[i]});
+  const auto name_of = [](const std::filesystem::path& file) { return file.filename().string(); };
+  // The left images may be in the order of their times: both lists are walked in the order of names.
+  std::vector<StereoFrame> frames(left.images.size());
+  std::vector<std::size_t> by_name(left.images.size());
+  std::iota(by_name.begin(), by_name.end(), std::size_t{0});
+  std::sort(by_name.begin(), by_name.end(), [&](std::size_t a, std::size_t b) {
+    return detail::naturally_less(name_of(left.images[a].file), name_of(left.images[b].file));
+  });
+  for (std::size_t i = 0; i < std::max(by_name.size(), right.size()); ++i) {
+    const bool has_left = i < by_name.size(), has_right = i < right.size();
+    const TimedImage image = has_left ? left.images[by_name[i]] : TimedImage{};
+    if (has_left && has_right && name_of(image.file) == name_of(right[i])) {
+      frames[by_name[i]] = {image.timestamp_s, image.file, right[i]};
       continue;
     }
     // The one whose name comes first is alone.
     const bool left_is_alone =
-        has_left &&
-        (!has_right || detail::naturally_less(left.images[i].file.filename().string(), right[i].filename().string()));
-    const std::filesystem::path alone = left_is_alone ? left.images[i].file : right[i];
+        has_left && (!has_right || detail::naturally_less(name_of(image.file), name_of(right[i])));
+    const std::filesystem::path alone = left_is_alone ? image.file : right[i];
     throw Error(alone.string() + ": found no image of this name in the folder of the " +
                 (left_is_alone ? "right" : "left") + " camera, expected the same names in both");
   }

@@ -18,6 +18,7 @@
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/whole_video.hpp"
 
 namespace stillpoint {
@@ -82,7 +83,7 @@ class VideoSource {
   template <class Open>
   void open(Open&& open_capture, const char* expected) {
     if (given_rate_hz_ && !(*given_rate_hz_ > 0))
-      throw Error("frame rate: found " + std::to_string(*given_rate_hz_) +
+      throw Error("frame rate: found " + option_text(*given_rate_hz_) +
                   ", expected a positive number of images per second");
     bool is_open = false;
     try {

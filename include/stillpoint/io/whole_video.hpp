@@ -17,7 +17,8 @@
 
 namespace stillpoint::detail {
 
-/// Big-endian or little-endian whole numbers from a file, which becomes false at its end.
+/// Reads an unsigned integer of so many bytes. At the end of the file it returns 0, and the stream is in its fail
+/// state.
 inline std::uint64_t read_number(std::istream& stream, int bytes, bool is_big_endian) {
   std::uint64_t value = 0;
   for (int i = 0; i < bytes; ++i) {

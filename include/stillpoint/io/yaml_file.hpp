@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/yaml_tree.hpp"
 
 namespace stillpoint {
@@ -48,7 +49,7 @@ class YamlFile {
 
   double positive(const char* field, const char* expected) const {
     const double value = number(field, expected);
-    if (!(value > 0)) fail(field, "is " + std::to_string(value), expected);
+    if (!(value > 0)) fail(field, "is " + option_text(value), expected);
     return value;
   }
 
@@ -57,7 +58,7 @@ class YamlFile {
     constexpr double kLargest = 65535;  // what PNG and JPEG can hold, too
     const char* const expected = "a whole number of pixels from 1 to 65535";
     const double value = positive(field, expected);
-    if (!(value <= kLargest) || value != std::floor(value)) fail(field, "is " + std::to_string(value), expected);
+    if (!(value <= kLargest) || value != std::floor(value)) fail(field, "is " + option_text(value), expected);
     return static_cast<int>(value);
   }
 

@@ -18,6 +18,7 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 
 namespace stillpoint {
@@ -46,17 +47,23 @@ class StereoDepth {
         size_(camera.width(), camera.height()),
         noise_{camera.fx(), baseline_m, options.disparity_sigma_px} {
     require(baseline_m > 0 && std::isfinite(baseline_m), "baseline_m", baseline_m, "a positive number of metres");
-    require(options.nearest_m > 0, "nearest_m", options.nearest_m, "a positive number of metres");
+    require(options.nearest_m > 0 && std::isfinite(options.nearest_m), "nearest_m", options.nearest_m,
+            "a positive number of metres");
     require(options.least_disparity_px > 0, "least_disparity_px", options.least_disparity_px,
             "a positive number of pixels");
     require(options.disparity_sigma_px > 0, "disparity_sigma_px", options.disparity_sigma_px,
             "a positive number of pixels");
     require(options.block_px >= 1 && options.block_px % 2 == 1, "block_px", options.block_px,
             "an odd number of pixels");
+    require(options.left_right_px >= 0, "left_right_px", options.left_right_px, "0 or more pixels");
+    require(options.uniqueness_percent >= 0 && options.uniqueness_percent <= 100, "uniqueness_percent",
+            options.uniqueness_percent, "0 to 100");
+    require(options.speckle_pixels >= 0, "speckle_pixels", options.speckle_pixels, "0 or more pixels");
+    require(options.speckle_step_px >= 0, "speckle_step_px", options.speckle_step_px, "0 or more pixels");
     constexpr double kStep = 16.0;  // what SGBM counts disparities in
     const double most_px = kStep * std::ceil(camera.fx() * baseline_m / options.nearest_m / kStep);
     require(most_px < camera.width(), "nearest_m", options.nearest_m,
-            "a depth at which the disparity, " + std::to_string(most_px) + " px, is within the image");
+            "a depth at which the disparity, " + option_text(most_px) + " px, is within the image");
     constexpr int kSmallStep = 8,
                   kLargeStep = 32;  // penalties per pixel of a block, as OpenCV's documentation has them
     const int block_area = options.block_px * options.block_px;
@@ -106,7 +113,7 @@ class StereoDepth {
 
   template <class Value>
   static void require(bool holds, const char* name, Value found, const std::string& expected) {
-    if (!holds) throw Error(std::string("stereo: ") + name + " is " + std::to_string(found) + ", expected " + expected);
+    if (!holds) throw Error(std::string("stereo: ") + name + " is " + option_text(found) + ", expected " + expected);
   }
 
   static constexpr int kSideways = 1;  ///< for cv::flip

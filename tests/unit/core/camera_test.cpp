@@ -84,8 +84,8 @@ TEST(PinholeCamera, RefusesWhatIsNoCameraAndSaysWhy) {
     return error_of([=] { Camera(fx, fy, cx, cy, width, height); });
   };
   EXPECT_EQ(camera(500, 400, 320, 230, 640, 480), "");
-  EXPECT_EQ(camera(0, 400, 320, 230, 640, 480), "camera: fx is 0.000000, expected a positive focal length in pixels");
-  EXPECT_EQ(camera(500, -1, 320, 230, 640, 480), "camera: fy is -1.000000, expected a positive focal length in pixels");
+  EXPECT_EQ(camera(0, 400, 320, 230, 640, 480), "camera: fx is 0, expected a positive focal length in pixels");
+  EXPECT_EQ(camera(500, -1, 320, 230, 640, 480), "camera: fy is -1, expected a positive focal length in pixels");
   EXPECT_EQ(camera(kNaN, 400, 320, 230, 640, 480), "camera: fx is nan, expected a positive focal length in pixels");
   EXPECT_EQ(camera(500, kInfinity, 320, 230, 640, 480),
             "camera: fy is inf, expected a positive focal length in pixels");

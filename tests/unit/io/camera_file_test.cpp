@@ -97,16 +97,17 @@ TEST(ReadCamera, NamesAMissingField) {
 
 TEST(ReadCamera, NamesAValueThatMakesNoSense) {
   EXPECT_EQ(message_of(yaml({{"fx", "wide"}})), "fx is not a number, expected a positive focal length in pixels");
-  EXPECT_EQ(message_of(yaml({{"fy", "-5"}})), "fy is -5.000000, expected a positive focal length in pixels");
+  EXPECT_EQ(message_of(yaml({{"fy", "-5"}})), "fy is -5, expected a positive focal length in pixels");
   EXPECT_EQ(message_of(yaml({{"cx", ".Nan"}})), "cx is not finite, expected a finite principal point in pixels");
   EXPECT_EQ(message_of(yaml({{"cy", "[1, 2]"}})), "cy is not a number, expected a finite principal point in pixels");
   EXPECT_EQ(message_of(yaml({{"width", "640.5"}})),
-            "width is 640.500000, expected a whole number of pixels from 1 to 65535");
-  EXPECT_EQ(message_of(yaml({{"height", "0"}})),
-            "height is 0.000000, expected a whole number of pixels from 1 to 65535");
+            "width is 640.5, expected a whole number of pixels from 1 to 65535");
+  EXPECT_EQ(message_of(yaml({{"height", "0"}})), "height is 0, expected a whole number of pixels from 1 to 65535");
   EXPECT_EQ(message_of(yaml({{"width", "1e12"}})).substr(0, 9), "width is ");
   EXPECT_EQ(message_of(yaml({{"depth_factor", "0"}})),
-            "depth_factor is 0.000000, expected the positive number that a depth image counts per metre");
+            "depth_factor is 0, expected the positive number that a depth image counts per metre");
+  EXPECT_EQ(message_of(yaml({{"depth_factor", "-1e-9"}})),
+            "depth_factor is -1e-09, expected the positive number that a depth image counts per metre");
   EXPECT_EQ(message_of(yaml({{"depth_factor", "1e9"}})),
             "depth_factor is 1e+09, expected what a depth image counts per metre: 0.001 to 1000000");
 }
@@ -126,6 +127,42 @@ TEST(ReadCamera, NamesAModelOrCoefficientThatDoesNotFit) {
             "k4 is missing, expected a coefficient of the lens model");
   EXPECT_EQ(message_of(yaml({{"model", "equidistant"}, {"p2", "1"}})),
             "p2 is given with model equidistant, expected k1 k2 k3 k4");
+}
+
+TEST(ReadCamera, NamesTheCoefficientsOfAnotherLens) {
+  const Fields brown = {{"k1", "0.1"}, {"k2", "-0.2"}, {"p1", "0.003"}, {"p2", "-0.004"}};
+  const Fields fisheye = {{"model", "equidistant"}, {"k1", "0.1"}, {"k2", "0.2"}, {"k3", "0.3"}, {"k4", "0.4"}};
+  const auto with = [](Fields fields, const char* name) {
+    fields[name] = "0.5";
+    return message_of(yaml(fields));
+  };
+  for (const std::string name : {"k4", "k5", "k6", "k12", "p3"})  // a rational lens, and one with more tangential terms
+    for (const std::string model : {"", "brown_conrady"}) {
+      Fields fields = brown;
+      fields["model"] = model;
+      EXPECT_EQ(with(fields, name.c_str()),
+                name + " is given with model brown_conrady, expected k1 k2 p1 p2 and optionally k3");
+    }
+  for (const std::string name : {"p1", "p2", "p3", "k5", "k6"})
+    EXPECT_EQ(with(fisheye, name.c_str()), name + " is given with model equidistant, expected k1 k2 k3 k4");
+  EXPECT_EQ(with({{"model", "pinhole"}}, "k5"),
+            "k5 is given with model pinhole, expected a pinhole to have no coefficients");
+  EXPECT_EQ(with({}, "k5"), "k5 is given without a model, expected model: pinhole, brown_conrady or equidistant");
+}
+
+TEST(ReadCamera, NamesALensThatIsSpelledOtherwise) {
+  const std::string expected =
+      " is not read, expected k1 k2 p1 p2 and optionally k3, or model: equidistant and k1 k2 k3 k4";
+  for (const std::string name : {"K1", "K6", "distortion", "Distortion", "dist", "D", "d", "dist_coeffs", "distCoeffs",
+                                 "distortion_coefficients", "distortion_coeffs", "coeffs"})
+    for (const char* model : {"", "pinhole", "equidistant"})
+      EXPECT_EQ(message_of(yaml({{name, "[0.1, 0.2, 0, 0]"}, {"model", model}})), name + expected);
+}
+
+TEST(ReadCamera, FieldsOfOtherProgramsAreNoLens) {
+  for (const std::string name : {"Camera.k1", "Camera.fps", "K", "P", "P0", "R", "k", "p", "kf1", "dt", "distance_m",
+                                 "distortion_model", "camera_model", "ThDepth", "ORBextractor.nFeatures", "note"})
+    EXPECT_EQ(camera_of({{name, "[0.1, 0.2]"}}).camera.fx(), 525.0) << name;
 }
 
 TEST(ReadCamera, FileThatIsNoYamlIsNamed) {
@@ -173,7 +210,7 @@ TEST(ReadImageCamera, NeedsNoDepthFactorAndTakesABaseline) {
   EXPECT_EQ(without_line(error_of([&] {
               read({{"baseline_m", "-0.1"}});
             })),
-            where + "baseline_m is -0.100000, expected the positive distance of the two cameras in metres");
+            where + "baseline_m is -0.1, expected the positive distance of the two cameras in metres");
   EXPECT_EQ(error_of([&] { read({{"fx", ""}}); }), where + "fx is missing, expected a positive focal length in pixels");
 }
 

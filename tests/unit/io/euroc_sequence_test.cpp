@@ -207,13 +207,13 @@ TEST_F(EurocSequenceTest, SensorFilesThatMakeNoSenseAreNamed) {
   EXPECT_EQ(message_with("data: [0.0, 0.0, 1.0", "data: [0.0, 0.0, .Nan"),
             file + ": T_BS has an entry that is not finite" + rigid);
   EXPECT_EQ(message_with("resolution: [64, 48]", "resolution: [64.5, 48]"),
-            file + ": resolution holds 64.500000, expected width and height, whole numbers of pixels from 1 to 65535");
+            file + ": resolution holds 64.5, expected width and height, whole numbers of pixels from 1 to 65535");
   EXPECT_EQ(message_with("[50.5, 50, 32, 23.5]", "50.5"),
             file + ": intrinsics is not a list, expected fu fv cu cv in pixels");
   EXPECT_EQ(message_with("[50.5, 50, 32, 23.5]", "[50.5, fv, 32, 23.5]"),
             file + ": intrinsics has an entry that is not a number, expected fu fv cu cv in pixels");
   EXPECT_EQ(message_with("[50.5, 50,", "[50.5, -50,"),
-            file + ": intrinsics holds -50.000000, expected positive focal lengths in pixels");
+            file + ": intrinsics holds -50, expected positive focal lengths in pixels");
   EXPECT_EQ(message_with("camera_model: pinhole", "camera_model: omni"),
             file + ": camera_model is 'omni', expected pinhole");
   EXPECT_EQ(message_with("radial-tangential", "fov"),

@@ -85,6 +85,42 @@ TEST_F(ImageFolderTest, TimesAreReadFromNames) {
     EXPECT_FALSE(detail::time_of_name(none)) << none;
 }
 
+// Python's f"{time.time()}.png" leaves out zeros at the end: .3 is later than .252.
+TEST_F(ImageFolderTest, NamesThatTellTheTimeAreInItsOrder) {
+  const std::vector<std::string> names = {"1700000000.051.png", "1700000000.102.png", "1700000000.15.png",
+                                          "1700000000.201.png", "1700000000.252.png", "1700000000.3.png",
+                                          "1700000001.0.png",   "1700000010.05.png"};
+  write(names);
+  EXPECT_EQ(message(), "no error");
+  EXPECT_EQ(names_of(read_image_folder(left)), names);
+  EXPECT_EQ(read_image_folder(left).images[5].timestamp_s, 1700000000.3);
+  const ImageList by_rate = read_image_folder(left, 20.0);
+  EXPECT_EQ(names_of(by_rate), names);
+  EXPECT_EQ(by_rate.images[2].timestamp_s, 0.1);
+
+  write(names, "right");
+  const auto frames = pair_with_right_folder(read_image_folder(left), right);
+  ASSERT_EQ(frames.size(), names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(frames[i].left_file, left / names[i]);
+    EXPECT_EQ(frames[i].right_file, right / names[i]);
+  }
+  EXPECT_EQ(frames[5].timestamp_s, 1700000000.3);
+  write({"right_of_nothing.png"}, "right");
+  EXPECT_EQ(error_of([&] { pair_with_right_folder(read_image_folder(left), right); }),
+            (right / "right_of_nothing.png").string() +
+                ": found no image of this name in the folder of the left camera, expected the same names in both");
+}
+
+// macOS puts ._0000.png beside 0000.png on disks of other systems.
+TEST_F(ImageFolderTest, HiddenFilesAreNoImages) {
+  write({"0000.png", "._0000.png", "0001.png", "._0001.png", ".thumbnail.jpg"});
+  EXPECT_EQ(names_of(read_image_folder(left)), (std::vector<std::string>{"0000.png", "0001.png"}));
+  write({"0000.png", "0001.png"}, "right");
+  EXPECT_EQ(error_of([&] { EXPECT_EQ(pair_with_right_folder(read_image_folder(left), right).size(), 2u); }),
+            "no error");
+}
+
 TEST_F(ImageFolderTest, OneNameWithoutATimeTakesItFromAll) {
   write({"1.5.png", "1.6.png", "last.png"});
   const ImageList list = read_image_folder(left);
@@ -98,7 +134,7 @@ TEST_F(ImageFolderTest, ARateOfTheCallersGoesBeforeNames) {
   EXPECT_FALSE(list.rate_is_assumed);
   EXPECT_EQ(list.images[1].timestamp_s, 0.25);
   EXPECT_EQ(error_of([&] { read_image_folder(left, 0.0); }),
-            "frame rate: found 0.000000, expected a positive number of images per second");
+            "frame rate: found 0, expected a positive number of images per second");
 }
 
 TEST_F(ImageFolderTest, WhatIsNoFolderOfImagesIsNamed) {

@@ -65,7 +65,7 @@ TEST_F(VideoSourceTest, ARateOfTheCallersGoesBeforeTheFiles) {
     EXPECT_EQ(time_s, 0.25 * i);
   }
   EXPECT_EQ(error_of([&] { VideoSource(folder.path() / "video.avi", -1.0); }),
-            "frame rate: found -1.000000, expected a positive number of images per second");
+            "frame rate: found -1, expected a positive number of images per second");
 }
 
 TEST_F(VideoSourceTest, AVideoThatBreaksOffIsNamed) {

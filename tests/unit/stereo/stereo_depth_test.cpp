@@ -190,7 +190,7 @@ TEST(StereoDepth, OptionsThatMakeNoSenseAreNamed) {
   const auto message = [](double baseline_m, const StereoDepth::Options& options) {
     return error_of([&] { StereoDepth(camera(), baseline_m, options); });
   };
-  EXPECT_EQ(message(0.0, {}), "stereo: baseline_m is 0.000000, expected a positive number of metres");
+  EXPECT_EQ(message(0.0, {}), "stereo: baseline_m is 0, expected a positive number of metres");
   EXPECT_EQ(message(std::numeric_limits<double>::quiet_NaN(), {}),
             "stereo: baseline_m is nan, expected a positive number of metres");
   StereoDepth::Options options;
@@ -198,13 +198,37 @@ TEST(StereoDepth, OptionsThatMakeNoSenseAreNamed) {
   EXPECT_EQ(message(0.1, options), "stereo: block_px is 4, expected an odd number of pixels");
   options = {};
   options.least_disparity_px = 0.0;
-  EXPECT_EQ(message(0.1, options), "stereo: least_disparity_px is 0.000000, expected a positive number of pixels");
+  EXPECT_EQ(message(0.1, options), "stereo: least_disparity_px is 0, expected a positive number of pixels");
   // 262.5 · 0.5 / 0.4 = 328.1, which is 336 in steps of 16: more than the 320 columns.
   options = {};
   options.nearest_m = 0.4;
-  EXPECT_EQ(
-      message(0.5, options),
-      "stereo: nearest_m is 0.400000, expected a depth at which the disparity, 336.000000 px, is within the image");
+  EXPECT_EQ(message(0.5, options),
+            "stereo: nearest_m is 0.4, expected a depth at which the disparity, 336 px, is within the image");
+}
+
+TEST(StereoDepth, MatchingOptionsHaveRanges) {
+  const auto message = [](int StereoDepth::Options::*option, int value) {
+    StereoDepth::Options options;
+    options.*option = value;
+    return error_of([&] { StereoDepth(camera(), kBaseline_m, options); });
+  };
+  EXPECT_EQ(message(&StereoDepth::Options::left_right_px, -1),
+            "stereo: left_right_px is -1, expected 0 or more pixels");
+  for (const int percent : {-1, 101, 200})
+    EXPECT_EQ(message(&StereoDepth::Options::uniqueness_percent, percent),
+              "stereo: uniqueness_percent is " + std::to_string(percent) + ", expected 0 to 100");
+  EXPECT_EQ(message(&StereoDepth::Options::speckle_pixels, -1),
+            "stereo: speckle_pixels is -1, expected 0 or more pixels");
+  EXPECT_EQ(message(&StereoDepth::Options::speckle_step_px, -1),
+            "stereo: speckle_step_px is -1, expected 0 or more pixels");
+  for (auto option : {&StereoDepth::Options::left_right_px, &StereoDepth::Options::uniqueness_percent,
+                      &StereoDepth::Options::speckle_pixels, &StereoDepth::Options::speckle_step_px})
+    EXPECT_EQ(message(option, 0), "no error");
+  EXPECT_EQ(message(&StereoDepth::Options::uniqueness_percent, 100), "no error");
+  StereoDepth::Options options;
+  options.nearest_m = std::numeric_limits<double>::infinity();  // no disparity would be tried
+  EXPECT_EQ(error_of([&] { StereoDepth(camera(), kBaseline_m, options); }),
+            "stereo: nearest_m is inf, expected a positive number of metres");
 }
 
 TEST(StereoDepth, ImagesThatAreNoPairAreNamed) {
