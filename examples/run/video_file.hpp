@@ -25,6 +25,9 @@ namespace stillpoint_run {
 
 /// How many frames can be read of a video; 0 where it cannot be opened. A last frame that breaks off may be counted.
 inline std::size_t count_frames(const std::filesystem::path& file) {
+  std::error_code missing;
+  if (std::filesystem::file_size(file, missing) == 0 || missing)
+    return 0;  // OpenCV would ask its cameras' readers, too
   std::size_t frames = 0;
   try {
     cv::VideoCapture video(file.string());
