@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 
 # Configures project/ afresh in BUILD, builds it and runs its programs. WAY: how it gets the library; COMPONENT: which
-# target it links; STANDARD: of C++, if not the compiler's own. For `core` OpenCV is hidden.
+# target it links; EVERY: its slower programs, too; STANDARD: of C++, if not the compiler's own. For `core` OpenCV is hidden.
 
 file(REMOVE_RECURSE "${BUILD}")
-set(arguments "-DWAY=${WAY}" "-DCOMPONENT=${COMPONENT}" "-DLIBRARY=${LIBRARY}"
+set(arguments "-DWAY=${WAY}" "-DCOMPONENT=${COMPONENT}" "-DEVERY=${EVERY}" "-DLIBRARY=${LIBRARY}"
   "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}"
   "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DEigen3_DIR=${EIGEN_DIR}")
 if(WAY STREQUAL "find_package")
