@@ -47,8 +47,8 @@ class SpreadOrb {
     return features;
   }
 
-  /// Moving objects soon cover most of an image, and most corners would be found on it only to be dropped. So where the
-  /// filter dropped more of this frame's corners than it kept, the next frame has fewer: the rest has more.
+  /// Moving objects soon cover most of an image, and most corners would be found on them only to be dropped. So where
+  /// the filter dropped more of this frame's corners than it kept, the next frame has fewer: the rest has more.
   /// @param extracted  of the last frame, all of them
   /// @param kept       those that the filter kept
   void look_past(const std::vector<cv::KeyPoint>& extracted, const std::vector<cv::KeyPoint>& kept) {

@@ -9,10 +9,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <ios>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -40,12 +37,8 @@ inline std::size_t count_frames(const std::filesystem::path& file) {
 /// Whether the file states its size and has as many bytes. An encoder writes the size last, so it is missing after a
 /// failed write.
 inline bool states_its_size(const std::filesystem::path& file) {
-  std::error_code error;
-  const std::uint64_t size = std::filesystem::file_size(file, error);
-  std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) return false;
-  const std::uint64_t stated = stillpoint::detail::stated_size(stream, size);
-  return stated > 0 && stated <= size;
+  const stillpoint::detail::VideoSize size = stillpoint::detail::size_of_video(file);
+  return size.stated > 0 && size.stated <= size.found;
 }
 
 /// Writes MPEG-4 into .mp4 and Motion JPEG into .avi: to a temporary file beside the target ("out.partial.mp4"), which

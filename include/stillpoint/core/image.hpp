@@ -120,4 +120,11 @@ inline void gray_from_bgr(const ImageView& colour, ImageBuffer& gray) {
   }
 }
 
+/// Whether width by height of two images is the same, to a row lost to rounding when one was made smaller.
+inline bool have_same_shape(const ImageView& a, const ImageView& b) noexcept {
+  constexpr double kTolerance = 0.01;
+  const double ratio = static_cast<double>(a.width) * b.height / (static_cast<double>(a.height) * b.width);
+  return std::abs(ratio - 1.0) <= kTolerance;
+}
+
 }  // namespace stillpoint

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,10 +53,10 @@ inline bool is_foreign_lens(std::string name) {
 }
 
 /// Refuses every coefficient but those of the model.
-inline void require_coefficients_of(const YamlFile& fields, std::string_view model, const char* own,
-                                    const char* expected) {
+inline void require_coefficients_of(const YamlFile& fields, std::string_view model,
+                                    std::initializer_list<std::string_view> own, const char* expected) {
   for (const YamlNode& field : fields.root().entries)
-    if (is_coefficient(field.name) && (' ' + std::string(own) + ' ').find(' ' + field.name + ' ') == std::string::npos)
+    if (is_coefficient(field.name) && std::find(own.begin(), own.end(), field.name) == own.end())
       fields.fail(field.name, "is given with model " + std::string(model), expected);
 }
 
@@ -82,16 +83,16 @@ inline AnyDistortion read_distortion(const YamlFile& fields) {
     fields.fail(given, "is given without a model", std::string("model: ") + kModels);
   }
   if (model == "pinhole") {
-    require_coefficients_of(fields, model, "", "a pinhole to have no coefficients");
+    require_coefficients_of(fields, model, {}, "a pinhole to have no coefficients");
     return {NoDistortion{}};
   }
   if (model == "brown_conrady") {
-    require_coefficients_of(fields, model, "k1 k2 p1 p2 k3", "k1 k2 p1 p2 and optionally k3");
+    require_coefficients_of(fields, model, {"k1", "k2", "p1", "p2", "k3"}, "k1 k2 p1 p2 and optionally k3");
     const double k3 = fields.has("k3") ? coefficient("k3") : 0.0;
     return {BrownConrady{coefficient("k1"), coefficient("k2"), coefficient("p1"), coefficient("p2"), k3}};
   }
   if (model == "equidistant") {
-    require_coefficients_of(fields, model, "k1 k2 k3 k4", "k1 k2 k3 k4");
+    require_coefficients_of(fields, model, {"k1", "k2", "k3", "k4"}, "k1 k2 k3 k4");
     return {EquidistantFisheye{coefficient("k1"), coefficient("k2"), coefficient("k3"), coefficient("k4")}};
   }
   fields.fail("model", "is '" + model + "'", kModels);

@@ -8,7 +8,6 @@
 #include <cctype>
 #include <cstddef>
 #include <filesystem>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -150,33 +149,32 @@ inline ImageList read_image_folder(const std::filesystem::path& folder,
 }
 
 /// Pairs the left images with those of the same name in another folder.
-/// @return        in the order of the left images.
+/// @return        in the order of the left images: of their times.
 /// @throws Error if that folder is missing or holds no image; naming the first image that is in one folder only.
 inline std::vector<StereoFrame> pair_with_right_folder(const ImageList& left,
                                                        const std::filesystem::path& right_folder) {
   const std::vector<std::filesystem::path> right = detail::image_files(right_folder);
   const auto name_of = [](const std::filesystem::path& file) { return file.filename().string(); };
-  // The left images may be in the order of their times: both lists are walked in the order of names.
-  std::vector<StereoFrame> frames(left.images.size());
-  std::vector<std::size_t> by_name(left.images.size());
-  std::iota(by_name.begin(), by_name.end(), std::size_t{0});
-  std::sort(by_name.begin(), by_name.end(), [&](std::size_t a, std::size_t b) {
-    return detail::naturally_less(name_of(left.images[a].file), name_of(left.images[b].file));
+  std::vector<TimedImage> images = left.images;  // in the order of names, as the right ones
+  std::sort(images.begin(), images.end(), [&](const TimedImage& a, const TimedImage& b) {
+    return detail::naturally_less(name_of(a.file), name_of(b.file));
   });
-  for (std::size_t i = 0; i < std::max(by_name.size(), right.size()); ++i) {
-    const bool has_left = i < by_name.size(), has_right = i < right.size();
-    const TimedImage image = has_left ? left.images[by_name[i]] : TimedImage{};
-    if (has_left && has_right && name_of(image.file) == name_of(right[i])) {
-      frames[by_name[i]] = {image.timestamp_s, image.file, right[i]};
+  std::vector<StereoFrame> frames;
+  for (std::size_t i = 0; i < std::max(images.size(), right.size()); ++i) {
+    const bool has_left = i < images.size(), has_right = i < right.size();
+    if (has_left && has_right && name_of(images[i].file) == name_of(right[i])) {
+      frames.push_back({images[i].timestamp_s, images[i].file, right[i]});
       continue;
     }
     // The one whose name comes first is alone.
     const bool left_is_alone =
-        has_left && (!has_right || detail::naturally_less(name_of(image.file), name_of(right[i])));
-    const std::filesystem::path alone = left_is_alone ? image.file : right[i];
+        has_left && (!has_right || detail::naturally_less(name_of(images[i].file), name_of(right[i])));
+    const std::filesystem::path alone = left_is_alone ? images[i].file : right[i];
     throw Error(alone.string() + ": found no image of this name in the folder of the " +
                 (left_is_alone ? "right" : "left") + " camera, expected the same names in both");
   }
+  std::sort(frames.begin(), frames.end(),
+            [](const StereoFrame& a, const StereoFrame& b) { return a.timestamp_s < b.timestamp_s; });
   return frames;
 }
 

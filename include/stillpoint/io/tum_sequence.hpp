@@ -7,7 +7,6 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -17,11 +16,13 @@
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/image.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 #include "stillpoint/io/camera_file.hpp"
 #include "stillpoint/io/image_file.hpp"
 #include "stillpoint/io/trajectory_file.hpp"
 #include "stillpoint/io/tum_frames.hpp"
+#include "stillpoint/opencv.hpp"
 
 namespace stillpoint {
 
@@ -74,10 +75,7 @@ class TumSequence {
 
     images.depth = read_image(frame.depth_file, cv::IMREAD_UNCHANGED);
     require_type(frame.depth_file, images.depth, CV_16UC1);
-    constexpr double kShapeTolerance = 0.01;  // a row lost to rounding when an image is made smaller
-    const double shape = static_cast<double>(images.depth.cols) * images.colour.rows /
-                         (static_cast<double>(images.depth.rows) * images.colour.cols);
-    if (!(std::abs(shape - 1.0) <= kShapeTolerance))
+    if (!have_same_shape(images.depth, images.colour))
       throw Error(frame.depth_file.string() + ": found " + size_of(images.depth) +
                   " pixels, expected the shape of the colour image, " + size_of(images.colour));
     return images;

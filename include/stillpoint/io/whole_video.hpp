@@ -76,14 +76,24 @@ inline std::uint64_t stated_size(std::istream& stream, std::uint64_t size) {
   return 0;
 }
 
-/// What is missing of a video, in bytes; 0 where nothing is, or the format does not tell.
-inline std::uint64_t missing_bytes(const std::filesystem::path& file) {
+/// What a video says that its size is, and what it is, bytes.
+struct VideoSize {
+  std::uint64_t stated = 0;  ///< 0: the format does not tell, or the file cannot be read
+  std::uint64_t found = 0;
+};
+
+inline VideoSize size_of_video(const std::filesystem::path& file) {
   std::error_code error;
   const std::uint64_t size = std::filesystem::file_size(file, error);
   std::ifstream stream(file, std::ios::binary);
-  if (error || !stream) return 0;
-  const std::uint64_t stated = stated_size(stream, size);
-  return stated > size ? stated - size : 0;
+  if (error || !stream) return {};
+  return {stated_size(stream, size), size};
+}
+
+/// What is missing of a video, in bytes; 0 where nothing is, or the format does not tell.
+inline std::uint64_t missing_bytes(const std::filesystem::path& file) {
+  const VideoSize size = size_of_video(file);
+  return size.stated > size.found ? size.stated - size.found : 0;
 }
 
 }  // namespace stillpoint::detail

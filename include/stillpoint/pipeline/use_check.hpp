@@ -5,11 +5,11 @@
 // Is the filter used as it is meant?   What is improbable in one frame and wrong in many.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/image.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/status.hpp"
@@ -32,7 +32,7 @@ class UseCheck {
     if (status == Status::time_gap || status == Status::out_of_order) return;
     nothing_fits_.count(!judged(status) && status != Status::no_keypoints);
     count_places(frame.image().width, frame.image().height, pixels);
-    depth_shape_differs_.count(!frame.depth.empty() && differ_in_shape(frame.image(), frame.depth.image));
+    depth_shape_differs_.count(!frame.depth.empty() && !have_same_shape(frame.depth.image, frame.image()));
     if (frames_++ % kLookEvery == 0) {
       const DepthOrientation orientation = DepthOrientation::of(frame);
       if (orientation.tells()) depth_turned_over_.count(orientation.is_wrong());
@@ -119,7 +119,6 @@ class UseCheck {
   static constexpr double kFast_m = 2.0;        // 60 m/s at 30 Hz, 20 m/s at 10 Hz
   static constexpr double kOtherScale = 2.0;    // 5000 for 1000 is 5
   static constexpr double kLeastStep_m = 0.01;  // smaller ones are noise
-  static constexpr double kSameShape = 0.01;    // share: a row lost to rounding when an image is made smaller
   static constexpr int kMany = 20;              // frames in a row that look wrong
   static constexpr int kLookEvery = 4;          // frame, at the depth image as a whole
   static constexpr std::size_t kFewest = 30;    // keypoints that say something
@@ -134,12 +133,6 @@ class UseCheck {
    private:
     int many_, frames_ = 0;
   };
-
-  static bool differ_in_shape(const ImageView& image, const ImageView& depth) noexcept {
-    const double shape =
-        static_cast<double>(depth.width) * image.height / (static_cast<double>(depth.height) * image.width);
-    return !(std::abs(shape - 1.0) <= kSameShape);
-  }
 
   void count_places(int width, int height, span<const Vector2f> pixels) noexcept {
     if (pixels.size() < kFewest) return;

@@ -23,15 +23,16 @@ CameraInfo info(const std::string& model = "", std::vector<double> d = {}) {
   return {1.0, 640, 480, {525, 0, 320, 0, 526, 241, 0, 0, 1}, model, std::move(d)};
 }
 
-TEST(CameraInfo, HasTheIntrinsicsRowByRow) {
-  const stillpoint::Camera camera = camera_of(info());
-  EXPECT_EQ(camera.fx(), 525);
-  EXPECT_EQ(camera.fy(), 526);
-  EXPECT_EQ(camera.cx(), 320);
-  EXPECT_EQ(camera.cy(), 241);
+void expect_intrinsics(const stillpoint::Camera& camera, double fx, double fy, double cx, double cy) {
+  EXPECT_EQ(camera.fx(), fx);
+  EXPECT_EQ(camera.fy(), fy);
+  EXPECT_EQ(camera.cx(), cx);
+  EXPECT_EQ(camera.cy(), cy);
   EXPECT_EQ(camera.width(), 640);
   EXPECT_EQ(camera.height(), 480);
 }
+
+TEST(CameraInfo, HasTheIntrinsicsRowByRow) { expect_intrinsics(camera_of(info()), 525, 526, 320, 241); }
 
 TEST(CameraInfo, CoefficientsOfZeroAreNoLens) {
   for (const char* model : {"plumb_bob", "rational_polynomial", "equidistant", "whatever"})
@@ -58,12 +59,7 @@ TEST(CameraInfo, OfARectifiedImageItIsPWithoutALens) {
   CameraInfo both = info("rational_polynomial", {.1, 0, 0, 0, 0, .2, 0, 0});
   both.p = {501, 0, 311, -40, 0, 502, 231, 0, 0, 0, 1, 0};  // with Tx, as of a right camera
   const stillpoint::Camera camera = camera_of(both, true);
-  EXPECT_EQ(camera.fx(), 501);
-  EXPECT_EQ(camera.fy(), 502);
-  EXPECT_EQ(camera.cx(), 311);
-  EXPECT_EQ(camera.cy(), 231);
-  EXPECT_EQ(camera.width(), 640);
-  EXPECT_EQ(camera.height(), 480);
+  expect_intrinsics(camera, 501, 502, 311, 231);
   EXPECT_TRUE(std::holds_alternative<stillpoint::NoDistortion>(camera.distortion().model));
   for (const double fx : {0.0, -1.0}) {
     both.p[0] = fx;
