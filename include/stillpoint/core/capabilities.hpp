@@ -24,6 +24,7 @@ struct matches {};            ///< of a matcher: features or corners of its own,
 struct feature_matches {};    ///< of a matcher: the host's features, found in the reference frame
 struct past_observations {};  ///< of a matcher: the host's features, looked for in older frames
 struct metric_motion {};      ///< of an ego-motion: its translation is in metres
+struct subpixel_motion {};    ///< of an ego-motion: it says to a fraction of a pixel where static points are seen
 struct log_likelihoods {};    ///< of a scorer: scores are in nats
 struct tail_threshold {};     ///< of a gate: the level that static features exceed at a rate, in nats
 struct log_odds {};           ///< of a classifier: labels have log-odds, a memory decides

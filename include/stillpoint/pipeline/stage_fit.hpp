@@ -103,6 +103,14 @@ constexpr bool is_met(Need<Stage, EgoMotion, capability::metric_motion>) {
   return true;
 }
 
+template <class Stage, class EgoMotion>
+constexpr bool is_met(Need<Stage, EgoMotion, capability::subpixel_motion>) {
+  static_assert(meets<Stage, EgoMotion, capability::subpixel_motion>,
+      "stillpoint: this Stage compares fractions of a pixel, and this EgoMotion is fitted to points in space, whose noise "
+      "hides who walks: take MonocularMotion, EpipolarMotion or SupportMotion, or another score; see docs/extending.md");
+  return true;
+}
+
 template <class Stage, class Scorer>
 constexpr bool is_met(Need<Stage, Scorer, capability::log_likelihoods>) {
   static_assert(meets<Stage, Scorer, capability::log_likelihoods>,
@@ -199,6 +207,7 @@ using NeedsOf = NeedList<
     Need<typename P::Scorer, typename P::Matcher, capability::past_observations>,
     Need<typename P::Classifier, typename P::Matcher, capability::feature_matches>,
     Need<typename P::Scorer, typename P::EgoMotion, capability::metric_motion>,
+    Need<typename P::Scorer, typename P::EgoMotion, capability::subpixel_motion>,
     Need<MoversOf<P>, typename P::EgoMotion, capability::metric_motion>,
     Need<typename P::Gate, typename P::Scorer, capability::log_likelihoods>,
     Need<typename P::Classifier, typename P::Scorer, capability::log_likelihoods>,

@@ -27,7 +27,7 @@ namespace stillpoint {
 /// there are no lines; a point is expected where the rotation takes it, give or take a little parallax.
 class SampsonScore {
  public:
-  using Needs = Capabilities<capability::feature_matches>;
+  using Needs = Capabilities<capability::feature_matches, capability::subpixel_motion>;
   using Provides = Capabilities<capability::log_likelihoods>;
 
   struct Options {

@@ -44,7 +44,7 @@ namespace stillpoint {
 class EpipolarMotion {
  public:
   using Needs = Capabilities<capability::matches, capability::metric_depth>;
-  using Provides = Capabilities<capability::metric_motion>;
+  using Provides = Capabilities<capability::metric_motion, capability::subpixel_motion>;
 
   using Solver = EpipolarSolver;
   using Options = EpipolarOptions;

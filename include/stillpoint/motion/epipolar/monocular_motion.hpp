@@ -13,7 +13,7 @@ namespace stillpoint {
 class MonocularMotion : public EpipolarMotion {
  public:
   using Needs = Capabilities<capability::matches>;
-  using Provides = Capabilities<>;
+  using Provides = Capabilities<capability::subpixel_motion>;
 
   MonocularMotion() {
     options.unit_translation = true;

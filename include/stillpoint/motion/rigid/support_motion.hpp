@@ -38,7 +38,7 @@ namespace stillpoint {
 class SupportMotion {
  public:
   using Needs = Capabilities<capability::matches, capability::metric_depth>;
-  using Provides = Capabilities<capability::metric_motion>;
+  using Provides = Capabilities<capability::metric_motion, capability::subpixel_motion>;
 
   struct Options {
     double inlier_sigmas = 4.0;   ///< beyond it a match supports a hypothesis no more
