@@ -17,6 +17,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_hole_filling.hpp"
 #include "stillpoint/fwd.hpp"
 #include "stillpoint/movers/no_movers.hpp"
 #include "stillpoint/pipeline/frame_check.hpp"
@@ -51,6 +52,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   DepthNoise depth_noise;                       ///< how wrong is a depth?
   typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
   DepthDelayOf<Policies> depth_delay;           ///< is the depth of the image's time?
+  HoleFillingOf<Policies> hole_filling;         ///< what lies where the depth image has a hole?
   Prior prior;                                  ///< where may something move?
   Matcher matcher;                              ///< where was each feature before?
   EgoMotion ego_motion;                         ///< how did the camera move?
@@ -135,6 +137,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   void reset() {
     history_.clear();
     depth_delay.reset();
+    hole_filling.reset();
     reset_policy(prior);
     matcher.reset();
     reset_policy(gate);
@@ -165,6 +168,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::match, [&] {
       rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
       frame.depth = depth_delay.undo(frame, rough_motion, camera);
+      frame.depth = hole_filling.fill(reference, frame, rough_motion, camera, depth_noise);
       matcher.match(reference, frame, matches);
       lift(frame, depth_lookup, camera, depth_noise, matches.current);
       lift(reference, depth_lookup, camera, depth_noise, matches.reference);
@@ -234,6 +238,7 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("depth_noise", filter.depth_noise);
   visit("depth_lookup", filter.depth_lookup);
   visit("depth_delay", filter.depth_delay);
+  visit("hole_filling", filter.hole_filling);
   visit("prior", filter.prior);
   visit("matcher", filter.matcher);
   visit("ego_motion", filter.ego_motion);

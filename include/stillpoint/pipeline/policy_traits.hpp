@@ -50,6 +50,12 @@ template <class P, class Camera> struct is_depth_delay<P, Camera, std::void_t<
     std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().frames())>>,
     decltype(std::declval<P&>().reset())>> : std::true_type {};
 
+template <class P, class Camera, class Noise, class = void> struct is_hole_filling : std::false_type {};
+template <class P, class Camera, class Noise> struct is_hole_filling<P, Camera, Noise, std::void_t<
+    std::enable_if_t<detail::returns<DepthView, decltype(std::declval<P&>().fill(std::declval<const FrameView&>(),
+    std::declval<const FrameView&>(), std::declval<const Pose&>(), std::declval<const Camera&>(),
+    std::declval<const Noise&>()))>>, decltype(std::declval<P&>().reset())>> : std::true_type {};
+
 template <class P, class Camera, class = void> struct is_ego_motion : std::false_type {};
 template <class P, class Camera> struct is_ego_motion<P, Camera, std::enable_if_t<detail::returns<Motion,
     decltype(std::declval<P&>().estimate(std::declval<const Observations&>(), std::declval<const Camera&>(),
@@ -109,13 +115,16 @@ template <class Policies> struct has_history_length<Policies, std::enable_if_t<
 
 // clang-format on
 
-struct NoMovers;      // movers/no_movers.hpp
-struct NoDepthDelay;  // depth/no_depth_delay.hpp
+struct NoMovers;       // movers/no_movers.hpp
+struct NoDepthDelay;   // depth/no_depth_delay.hpp
+struct NoHoleFilling;  // depth/no_hole_filling.hpp
 
 namespace detail {
 
 template <class Policies>
 using named_depth_delay = typename Policies::DepthDelay;
+template <class Policies>
+using named_hole_filling = typename Policies::HoleFilling;
 template <class Policies>
 using named_movers = typename Policies::Movers;
 
@@ -134,6 +143,10 @@ struct named_or<Named, Policies, Null, std::void_t<Named<Policies>>> {
 /// The stage that a set has for depth of another time: `NoDepthDelay` where it names none.
 template <class Policies>
 using DepthDelayOf = typename detail::named_or<detail::named_depth_delay, Policies, NoDepthDelay>::type;
+
+/// The stage that a set has for holes of the depth image: `NoHoleFilling` where it names none.
+template <class Policies>
+using HoleFillingOf = typename detail::named_or<detail::named_hole_filling, Policies, NoHoleFilling>::type;
 
 /// The stage that a set has for movers: `NoMovers` where it names none.
 template <class Policies>
@@ -168,6 +181,10 @@ struct PolicyContract {
       "stillpoint: Policies::DepthDelay must offer DepthView undo(const FrameView&, const Pose&, const "
       "Camera&), void observe(const FrameView&, const FrameFeatures&, span<const Label>, const Motion&, const "
       "Camera&), double frames() const and void reset(); see depth/no_depth_delay.hpp");
+  static_assert(is_hole_filling<HoleFillingOf<Policies>, Camera, typename Policies::DepthNoise>::value,
+                "stillpoint: Policies::HoleFilling must offer DepthView fill(const FrameView& reference, const "
+                "FrameView& current, const Pose& current_from_reference, const Camera&, const DepthNoise&) and void "
+                "reset(); see depth/no_hole_filling.hpp");
   static_assert(
       is_prior<typename Policies::Prior>::value,
       "stillpoint: Policies::Prior must offer void regions(const FrameView&, Regions&); see prior/box_prior.hpp");

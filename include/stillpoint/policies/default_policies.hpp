@@ -11,6 +11,7 @@
 #include "stillpoint/depth/depth_delay.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
+#include "stillpoint/depth/temporal_hole_filling.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
 #include "stillpoint/match/patch_matcher.hpp"
 #include "stillpoint/memory/evidence_memory.hpp"
@@ -29,6 +30,7 @@ struct DefaultPolicies {
   using DepthNoise = AnyDepthNoise;
   using DepthLookup = GuardedDepth;
   using DepthDelay = stillpoint::DepthDelay;
+  using HoleFilling = TemporalHoleFilling;
   using Prior = PropagatedPrior;
   using Matcher = PatchMatcher;
   using EgoMotion = SupportMotion;

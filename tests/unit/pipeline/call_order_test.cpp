@@ -89,6 +89,14 @@ struct RecordingDepthDelay : DepthDelay, mock::Stage {
   void reset() { note("depth_delay.reset"), DepthDelay::reset(); }
 };
 
+struct RecordingHoleFilling : TemporalHoleFilling, mock::Stage {
+  template <class... A>
+  auto fill(A&&... a) -> decltype(std::declval<TemporalHoleFilling&>().fill(std::forward<A>(a)...)) {
+    return note("hole_filling.fill"), TemporalHoleFilling::fill(std::forward<A>(a)...);
+  }
+  void reset() { note("hole_filling.reset"), TemporalHoleFilling::reset(); }
+};
+
 struct RecordingEgoMotion : SupportMotion, mock::Stage {
   template <class... A>
   auto estimate(A&&... a) -> decltype(std::declval<SupportMotion&>().estimate(std::forward<A>(a)...)) {
@@ -159,6 +167,7 @@ struct RecordingPolicies : DefaultPolicies {
   using Matcher = RecordingMatcher;
   using DepthLookup = RecordingDepthLookup;
   using DepthDelay = RecordingDepthDelay;
+  using HoleFilling = RecordingHoleFilling;
   using EgoMotion = RecordingEgoMotion;
   using Scorer = RecordingScorer;
   using Gate = RecordingGate;
@@ -172,6 +181,7 @@ constexpr bool records = std::is_base_of_v<Real, Recording>;
 static_assert(records<RecordingPrior, DefaultPolicies::Prior> && records<RecordingMatcher, DefaultPolicies::Matcher> &&
                   records<RecordingDepthLookup, DefaultPolicies::DepthLookup> &&
                   records<RecordingDepthDelay, DefaultPolicies::DepthDelay> &&
+                  records<RecordingHoleFilling, DefaultPolicies::HoleFilling> &&
                   records<RecordingEgoMotion, DefaultPolicies::EgoMotion> &&
                   records<RecordingScorer, DefaultPolicies::Scorer> && records<RecordingGate, DefaultPolicies::Gate> &&
                   records<RecordingClassifier, DefaultPolicies::Classifier> &&
@@ -202,7 +212,7 @@ class CallOrder : public testing::Test {
   CallOrder() {
     filter_.prior.log = filter_.matcher.log = filter_.depth_lookup.log = filter_.ego_motion.log = &log_;
     filter_.scorer.log = filter_.gate.log = filter_.classifier.log = filter_.memory.log = filter_.keep_floor.log =
-        filter_.movers.log = filter_.depth_delay.log = &log_;
+        filter_.movers.log = filter_.depth_delay.log = filter_.hole_filling.log = &log_;
   }
 
   const FrameResult& run(std::size_t f) {

@@ -17,6 +17,7 @@
 #include "mock_policies.hpp"
 #include "stillpoint/core/compact.hpp"
 #include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_hole_filling.hpp"
 #include "stillpoint/memory/no_memory.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/verdict/no_keep_floor.hpp"
@@ -614,6 +615,36 @@ TEST(FrameFilter, UsesAndRemembersTheDepthOfTheImagesTimeAndObservesItAsItCame) 
   EXPECT_EQ(filter.depth_delay.observed, depth.data);
   filter.filter_frame(FrameView(gray, depth, 1.2), keypoints);
   EXPECT_EQ(filter.matcher.reference_m, 3.0f);
+}
+
+/// Fills the whole image with 2 m, and remembers what it was given.
+struct TwoMetres : NoHoleFilling {
+  template <class Camera, class Noise>
+  DepthView fill(const FrameView& reference, const FrameView& current, const Pose&, const Camera&, const Noise&) {
+    reference_m = reference.depth.metres(10, 10);
+    current_m = current.depth.metres(10, 10);
+    return DepthView(filled_m);
+  }
+
+  cv::Mat filled_m = cv::Mat(48, 64, CV_32FC1, cv::Scalar(2.0));
+  float reference_m = 0, current_m = 0;
+};
+struct FilledDepth : LateDepth {
+  using HoleFilling = TwoMetres;
+};
+
+TEST(FrameFilter, FillsHolesOfTheDepthOfTheImagesTimeAndRemembersThemFilled) {
+  FrameFilter<FilledDepth> filter(Camera(50, 50, 32, 24, 64, 48));
+  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(3)), depth(48, 64, CV_32FC1, cv::Scalar(1.0));
+  const std::vector<Vector2f> keypoints = {{10, 10}, {20, 20}};
+  filter.filter_frame(FrameView(gray, depth, 1.0), keypoints);
+  const FrameResult& result = filter.filter_frame(FrameView(gray, depth, 1.1), keypoints);
+  EXPECT_EQ(result.depth_m(0), 2.0);
+  EXPECT_EQ(filter.hole_filling.reference_m, 1.0f) << "the first frame is not judged: as it came";
+  EXPECT_EQ(filter.hole_filling.current_m, 3.0f) << "undone";
+  EXPECT_EQ(filter.depth_delay.observed, depth.data) << "observed as it came";
+  filter.filter_frame(FrameView(gray, depth, 1.2), keypoints);
+  EXPECT_EQ(filter.hole_filling.reference_m, 2.0f);
 }
 
 TEST(FrameFilter, SaysThatDepthIsLateInFramesThatAreNotJudged) {

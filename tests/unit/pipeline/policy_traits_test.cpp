@@ -11,6 +11,8 @@
 #include "compile_fail/sound_policies.hpp"
 #include "stillpoint/depth/depth_delay.hpp"
 #include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_hole_filling.hpp"
+#include "stillpoint/depth/temporal_hole_filling.hpp"
 
 namespace stillpoint {
 namespace {
@@ -74,6 +76,14 @@ struct WithoutUndo : NoDepthDelay {
  private:
   void undo();
 };
+struct FillingWithoutReset : NoHoleFilling {
+ private:
+  void reset();
+};
+struct WithoutFill : NoHoleFilling {
+ private:
+  void fill();
+};
 struct WithoutMemory : SoundPolicies {
  private:
   using Memory = NoMemory;
@@ -91,6 +101,8 @@ TEST(PolicyTraits, SoundStagesAreTaken) {
   EXPECT_TRUE(is_depth_lookup<SoundPolicies::DepthLookup>::value);
   EXPECT_TRUE((is_depth_delay<NoDepthDelay, Camera>::value));
   EXPECT_TRUE((is_depth_delay<DepthDelay, Camera>::value));
+  EXPECT_TRUE((is_hole_filling<NoHoleFilling, Camera, KinectNoise>::value));
+  EXPECT_TRUE((is_hole_filling<TemporalHoleFilling, Camera, KinectNoise>::value));
   EXPECT_TRUE(is_prior<SoundPolicies::Prior>::value);
   EXPECT_TRUE(is_matcher<SoundPolicies::Matcher>::value);
   EXPECT_TRUE((is_ego_motion<SoundPolicies::EgoMotion, Camera>::value));
@@ -109,6 +121,8 @@ TEST(PolicyTraits, ATypeWithoutTheMemberIsNoStage) {
   EXPECT_FALSE(is_depth_lookup<Nothing>::value);
   EXPECT_FALSE((is_depth_delay<Nothing, Camera>::value));
   EXPECT_FALSE((is_depth_delay<WithoutUndo, Camera>::value));
+  EXPECT_FALSE((is_hole_filling<Nothing, Camera, KinectNoise>::value));
+  EXPECT_FALSE((is_hole_filling<WithoutFill, Camera, KinectNoise>::value));
   EXPECT_FALSE(is_prior<Nothing>::value);
   EXPECT_FALSE(is_matcher<Nothing>::value);
   EXPECT_FALSE((is_ego_motion<Nothing, Camera>::value));
@@ -136,6 +150,7 @@ TEST(PolicyTraits, WhoRemembersFramesMustForgetThem) {
   EXPECT_FALSE(is_memory<NoUpdate>::value);
   EXPECT_FALSE(is_memory<NoMemoryReset>::value);
   EXPECT_FALSE((is_depth_delay<WithoutReset, Camera>::value));
+  EXPECT_FALSE((is_hole_filling<FillingWithoutReset, Camera, KinectNoise>::value));
 }
 
 TEST(PolicyTraits, AnswersHaveTheirTypeAndModelsAreConst) {

@@ -18,6 +18,8 @@
 #include "backends/followed_corners.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_hole_filling.hpp"
+#include "stillpoint/depth/temporal_hole_filling.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/match/corner_tracker.hpp"
 #include "stillpoint/opencv.hpp"
@@ -37,6 +39,7 @@ namespace {
 // clang-format off
 template <class Set, class T> struct WithDepthNoise : Set { using DepthNoise = T; };
 template <class Set, class T> struct WithDepthDelay : Set { using DepthDelay = T; };
+template <class Set, class T> struct WithHoleFilling : Set { using HoleFilling = T; };
 template <class Set, class T> struct WithDepthLookup : Set { using DepthLookup = T; };
 template <class Set, class T> struct WithPrior : Set { using Prior = T; };
 template <class Set, class T> struct WithMatcher : Set { using Matcher = T; };
@@ -165,6 +168,10 @@ std::string replace_each(const Expected& expected) {
     expect_finds_or_refused<WithDepthDelay<Set, DepthDelay>>("DepthDelay", expected, refused);
   else
     expect_finds_or_refused<WithDepthDelay<Set, NoDepthDelay>>("NoDepthDelay", expected, refused);
+  if constexpr (std::is_same_v<HoleFillingOf<Set>, NoHoleFilling>)
+    expect_finds_or_refused<WithHoleFilling<Set, TemporalHoleFilling>>("TemporalHoleFilling", expected, refused);
+  else
+    expect_finds_or_refused<WithHoleFilling<Set, NoHoleFilling>>("NoHoleFilling", expected, refused);
   expect_finds_or_refused<WithMovers<Set>>("WithMovers", expected, refused);
   return refused;
 }
