@@ -117,6 +117,16 @@ TEST_F(TemporalHoleFillingTest, DepthMovesAlong) {
     for (int u = 0; u < kWidth; ++u) before.set(u, v, 1.7 + 0.01 * u);
   now.dig(20, 40);
   EXPECT_NEAR(filled_m(before, now, 30, 20, step(0.04, 0.0)), 1.98f, 2e-3f);
+  EXPECT_NEAR(filled_m(before, now, 30, 20, step(0.05, 0.0)), 1.975f, 1e-3f) << "2.5 px: between two pixels";
+}
+
+// The same downwards: at 2 m 2.5 px, to pixel 20 from 17.5, where the wall is 1.8 + 0.01 · 17.5 m away.
+TEST_F(TemporalHoleFillingTest, DepthMovesDownwardsAlong) {
+  Images before(0.0, 0.0), now(0.033, 2.0);
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) before.set(u, v, 1.8 + 0.01 * v);
+  now.dig(20, 40);
+  EXPECT_NEAR(filled_m(before, now, 30, 20, make_pose(Matrix3d::Identity(), {0.0, 0.05, 0.0})), 1.975f, 1e-3f);
 }
 
 TEST_F(TemporalHoleFillingTest, WhereTheImageChangedSomethingElseHasCome) {
