@@ -141,7 +141,6 @@ TEST_F(TemporalHoleFillingTest, WhereTheImageChangedSomethingElseHasCome) {
 
 /// For how many frames a hole keeps its depth.
 int frames_filled(TemporalHoleFilling& filling, double interval_s) {
-  FrameView reference;
   Images last(0.0, 2.0);
   for (int frame = 1; frame < 20; ++frame) {
     Images now(frame * interval_s, 2.0);
@@ -162,7 +161,6 @@ TEST_F(TemporalHoleFillingTest, ATenthOfASecondAfterItWasMeasuredADepthIsGone) {
 }
 
 TEST_F(TemporalHoleFillingTest, WhatIsMeasuredAgainIsNewAgain) {
-  FrameView reference;
   Images last(0.0, 2.0);
   for (int frame = 1; frame <= 12; ++frame) {
     Images now(frame / 30.0, 2.0);
