@@ -51,22 +51,11 @@ class TemporalHoleFilling {
       return current.depth;
     filled_.resize(depth.width, depth.height, depth.format);  // all memory at once, not in the first frame with holes
     for (ImageBuffer* const age : {&age_, &age_before_}) age->resize(depth.width, depth.height, PixelFormat::gray8);
-    if (depth.format == PixelFormat::depth16)
-      find_tiles<std::uint16_t>(depth, before);
-    else
-      find_tiles<float>(depth, before);
-    if (tiles_.empty()) return current.depth;
     if (!was_filled) clear(age_);
-    std::swap(age_, age_before_);
-    clear(age_);
     most_age_ = static_cast<int>(std::min(frames, 255.0));
-    filled_.assign(depth);
-    filled_at_s_ = current.timestamp_s;
-    if (depth.format == PixelFormat::depth16)
-      fill_tiles<std::uint16_t>(reference, current, current_from_reference, camera, noise);
-    else
-      fill_tiles<float>(reference, current, current_from_reference, camera, noise);
-    return DepthView(filled_.view(), current.depth.factor);
+    return depth.format == PixelFormat::depth16
+               ? fill_tiles<std::uint16_t>(reference, current, current_from_reference, camera, noise)
+               : fill_tiles<float>(reference, current, current_from_reference, camera, noise);
   }
 
   void reset() noexcept { filled_at_s_ = kNever_s; }
@@ -118,9 +107,15 @@ class TemporalHoleFilling {
   }
 
   template <class Depth, class Camera, class Noise>
-  void fill_tiles(const FrameView& reference, const FrameView& current, const Pose& current_from_reference,
-                  const Camera& camera, const Noise& noise) {
+  DepthView fill_tiles(const FrameView& reference, const FrameView& current, const Pose& current_from_reference,
+                       const Camera& camera, const Noise& noise) {
     const ImageView &depth = current.depth.image, &before = reference.depth.image;
+    find_tiles<Depth>(depth, before);
+    if (tiles_.empty()) return current.depth;
+    std::swap(age_, age_before_);
+    clear(age_);
+    filled_.assign(depth);
+    filled_at_s_ = current.timestamp_s;
     const DepthScale to_depth(current.gray, depth);
     const DepthShadow shadow(current, camera);
     for (const Tile& tile : tiles_) {
@@ -130,6 +125,7 @@ class TemporalHoleFilling {
           if (is_lost(depth.row<Depth>(v)[u], before.row<Depth>(v)[u]))
             fill_pixel<Depth>(u, v, motion, to_depth, shadow, reference, current, noise);
     }
+    return DepthView(filled_.view(), current.depth.factor);
   }
 
   template <class Depth, class Noise>

@@ -604,16 +604,24 @@ struct LateDepth : mock::Policies {
   using DepthDelay = ThreeMetres;
 };
 
+/// A wall at 1 m, as the sensor sees it.
+struct Wall {
+  Camera camera{50, 50, 32, 24, 64, 48};
+  cv::Mat gray = cv::Mat(48, 64, CV_8UC1, cv::Scalar(3)), depth_m = cv::Mat(48, 64, CV_32FC1, cv::Scalar(1.0));
+  std::vector<Vector2f> keypoints = {{10, 10}, {20, 20}};
+
+  FrameView at(double timestamp_s) const { return FrameView(gray, depth_m, timestamp_s); }
+};
+
 TEST(FrameFilter, UsesAndRemembersTheDepthOfTheImagesTimeAndObservesItAsItCame) {
-  FrameFilter<LateDepth> filter(Camera(50, 50, 32, 24, 64, 48));
-  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(3)), depth(48, 64, CV_32FC1, cv::Scalar(1.0));
-  const std::vector<Vector2f> keypoints = {{10, 10}, {20, 20}};
-  filter.filter_frame(FrameView(gray, depth, 1.0), keypoints);
-  const FrameResult& result = filter.filter_frame(FrameView(gray, depth, 1.1), keypoints);
+  const Wall wall;
+  FrameFilter<LateDepth> filter(wall.camera);
+  filter.filter_frame(wall.at(1.0), wall.keypoints);
+  const FrameResult& result = filter.filter_frame(wall.at(1.1), wall.keypoints);
   ASSERT_EQ(result.status(), Status::ok);
   EXPECT_EQ(result.depth_m(0), 3.0);
-  EXPECT_EQ(filter.depth_delay.observed, depth.data);
-  filter.filter_frame(FrameView(gray, depth, 1.2), keypoints);
+  EXPECT_EQ(filter.depth_delay.observed, wall.depth_m.data);
+  filter.filter_frame(wall.at(1.2), wall.keypoints);
   EXPECT_EQ(filter.matcher.reference_m, 3.0f);
 }
 
@@ -634,24 +642,23 @@ struct FilledDepth : LateDepth {
 };
 
 TEST(FrameFilter, FillsHolesOfTheDepthOfTheImagesTimeAndRemembersThemFilled) {
-  FrameFilter<FilledDepth> filter(Camera(50, 50, 32, 24, 64, 48));
-  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(3)), depth(48, 64, CV_32FC1, cv::Scalar(1.0));
-  const std::vector<Vector2f> keypoints = {{10, 10}, {20, 20}};
-  filter.filter_frame(FrameView(gray, depth, 1.0), keypoints);
-  const FrameResult& result = filter.filter_frame(FrameView(gray, depth, 1.1), keypoints);
+  const Wall wall;
+  FrameFilter<FilledDepth> filter(wall.camera);
+  filter.filter_frame(wall.at(1.0), wall.keypoints);
+  const FrameResult& result = filter.filter_frame(wall.at(1.1), wall.keypoints);
   EXPECT_EQ(result.depth_m(0), 2.0);
   EXPECT_EQ(filter.hole_filling.reference_m, 1.0f) << "the first frame is not judged: as it came";
   EXPECT_EQ(filter.hole_filling.current_m, 3.0f) << "undone";
-  EXPECT_EQ(filter.depth_delay.observed, depth.data) << "observed as it came";
-  filter.filter_frame(FrameView(gray, depth, 1.2), keypoints);
+  EXPECT_EQ(filter.depth_delay.observed, wall.depth_m.data) << "observed as it came";
+  filter.filter_frame(wall.at(1.2), wall.keypoints);
   EXPECT_EQ(filter.hole_filling.reference_m, 2.0f);
 }
 
 TEST(FrameFilter, SaysThatDepthIsLateInFramesThatAreNotJudged) {
-  FrameFilter<LateDepth> filter(Camera(50, 50, 32, 24, 64, 48));
-  const cv::Mat gray(48, 64, CV_8UC1, cv::Scalar(3)), depth(48, 64, CV_32FC1, cv::Scalar(1.0));
-  filter.filter_frame(FrameView(gray, depth, 1.0), std::vector<Vector2f>{{10, 10}});
-  const FrameResult& result = filter.filter_frame(FrameView(gray, depth, 1.1), std::vector<Vector2f>{});
+  const Wall wall;
+  FrameFilter<LateDepth> filter(wall.camera);
+  filter.filter_frame(wall.at(1.0), std::vector<Vector2f>{{10, 10}});
+  const FrameResult& result = filter.filter_frame(wall.at(1.1), std::vector<Vector2f>{});
   EXPECT_EQ(result.status(), Status::no_keypoints);
   EXPECT_TRUE(result.warnings().has(Warning::depth_unsynchronised));
 }
