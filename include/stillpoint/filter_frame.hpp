@@ -145,6 +145,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     movers.reset();
     expectation_ = MotionExpectation();
     mask_prediction.forget();
+    last_judged_s_.reset();
   }
 
  private:
@@ -159,6 +160,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     matches.begin(pixels_);
     matches.pixel_scale = pixel_scale(camera);
     matches.elapsed_s = frame.timestamp_s - reference.timestamp_s;
+    matches.unjudged_s = last_judged_s_ ? reference.timestamp_s - *last_judged_s_ : 0.0;
 
     const MotionPrior expected = expectation_.at(frame.timestamp_s);
     Pose rough_motion = Pose::Identity();  // current_from_reference
@@ -218,11 +220,13 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     });
     result_.warnings_ = motion.warnings;
     if (result_.keep_floor_kept() > 0) result_.warnings_.add(Warning::keep_floor);
+    last_judged_s_ = frame.timestamp_s;
     return motion.status;
   }
 
   FrameHistory history_;
   MotionExpectation expectation_;
+  std::optional<double> last_judged_s_;
   UseCheck use_check_;
   ImageBuffer gray_;
   std::vector<Vector2f> pixels_;

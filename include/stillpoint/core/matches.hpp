@@ -74,7 +74,8 @@ struct Matches {
       false;  ///< a matcher without corners of its own: one host's feature per cell supports the motion
   /// Focal length over 525 px, a Kinect's: lengths in pixels among the options are for that and scale with it.
   float pixel_scale = 1.0f;
-  double elapsed_s = 0;  ///< from the reference frame to the current one
+  double elapsed_s = 0;   ///< from the reference frame to the current one
+  double unjudged_s = 0;  ///< from the frame that was judged last to the reference: what is remembered is so much older
   FrameFeatures current;
   FrameFeatures reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;

@@ -48,7 +48,8 @@ class DepthDelay {
   template <class Camera>
   void observe(const FrameView& frame, const FrameFeatures& features, span<const Label> labels, const Motion& motion,
                const Camera& camera) {
-    if (!is_enabled || !motion.metric || frame.depth.empty() || frame_++ % kLookEvery != 0) return;
+    if (!is_enabled) return reset();  // what was found is of a sensor that nobody watches any more
+    if (!motion.metric || frame.depth.empty() || frame_++ % kLookEvery != 0) return;
     find_dynamic(features, labels);
     find_jumps(frame, motion.current_from_reference, camera);
     if (jumps_.size() < kFewestJumps || !camera_moves(frame.gray.width)) return;
@@ -57,8 +58,8 @@ class DepthDelay {
   }
 
   /// By how many intervals between frames depth is older than its image; below 0, newer. 0: less than half an interval,
-  /// or not known.
-  double frames() const noexcept { return frames_; }
+  /// or not known, or not enabled.
+  double frames() const noexcept { return is_enabled ? frames_ : 0.0; }
 
   void reset() noexcept {
     frames_ = 0.0;

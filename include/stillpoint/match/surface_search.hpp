@@ -65,7 +65,9 @@ struct SurfaceSearch {
                           const Camera& camera, const Noise& noise) const {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
-    const Vector2f pixel = rounded(Vector2f(camera.distort(camera.project(there)).template cast<float>()));
+    const Vector2f place = camera.distort(camera.project(there)).template cast<float>();
+    if (!(older.gray.border_distance_px(place.x(), place.y()) >= -0.5f)) return {};  // else it may not fit an int
+    const Vector2f pixel = rounded(place);
     const double depth_m = guard.at(older, pixel, noise);
     if (!(depth_m > 0)) return {};
     return {camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m), noise.sigma(depth_m)};

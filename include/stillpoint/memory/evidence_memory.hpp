@@ -55,7 +55,8 @@ class EvidenceMemory {
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;
     const float feature_px = matches.pixel_scale * kFeature_px;
     const NeighbourSteps steps(matches, neighbour_px, workspace);
-    dynamic_prior_left_ = static_cast<float>(std::exp(-matches.elapsed_s / options.dynamic_prior_decay_s));
+    const double age_s = matches.elapsed_s + matches.unjudged_s;
+    dynamic_prior_left_ = static_cast<float>(std::exp(-age_s / options.dynamic_prior_decay_s));
     const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px}, workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
@@ -65,7 +66,7 @@ class EvidenceMemory {
                                                 : steps.before(here, depth_m, tolerance_m, matches.predicted[i]);
       recalled_[i] = look_up(points, pixel, depth_m, tolerance_m);
       if (settled(matches.was_there[i], matches.space_static_prior[i])) recalled_[i].dynamic_prior = 0;
-      recalled_[i].by_map = evidence_of_map(pixel, depth_m, tolerance_m);
+      recalled_[i].by_map = evidence_of_map(pixel, depth_m, tolerance_m, neighbour_px);
       remembered.static_prior[i] = std::min(matches.space_static_prior[i], static_prior(recalled_[i].dynamic_prior));
       remembered.log_odds[i] = recalled_[i].log_odds;
     }
@@ -86,7 +87,10 @@ class EvidenceMemory {
     pixel_.clear();
     remembered_.clear();
     dynamic_.clear();
-    const auto persistence = static_cast<float>(std::exp(-matches.elapsed_s / options.log_odds_decay_s));
+    const auto persistence_over = [this](double age_s) {
+      return static_cast<float>(std::exp(-age_s / options.log_odds_decay_s));
+    };
+    const float persistence = persistence_over(matches.elapsed_s + matches.unjudged_s);
     const auto gain = [&matches](double rise_s) {
       return static_cast<float>(exponential_share(matches.elapsed_s, rise_s));
     };
@@ -95,7 +99,7 @@ class EvidenceMemory {
       memory.certainty += certainty_gain * (1.0f - memory.certainty);
       return memory;
     };
-    const float cautious = caution_at(persistence);
+    const float cautious = caution_at(persistence_over(matches.elapsed_s));
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Memory before = recalled_[i];
       Label& label = labels[i];
@@ -189,9 +193,9 @@ class EvidenceMemory {
   }
 
   /// Of what the map called dynamic near a place, on its surface.
-  float evidence_of_map(const Vector2f& pixel, double depth_m, double tolerance_m) const noexcept {
+  float evidence_of_map(const Vector2f& pixel, double depth_m, double tolerance_m, float neighbour_px) const noexcept {
     for (const RememberedPoint& point : dynamic_) {
-      if ((point.pixel - pixel).squaredNorm() > kNeighbour_px * kNeighbour_px) continue;
+      if ((point.pixel - pixel).squaredNorm() > neighbour_px * neighbour_px) continue;
       const bool has_depths = depth_m > 0 && point.depth_m > 0;
       if (!has_depths || std::abs(static_cast<double>(point.depth_m) - depth_m) < tolerance_m) return kMapEvidence;
     }
@@ -211,7 +215,7 @@ class EvidenceMemory {
       label.reason = label.reason == Reason::consistent ? Reason::inconsistent : Reason::neighbours;
   }
 
-  float dynamic_prior_left_ = 1.0f;  // of what was remembered one frame ago
+  float dynamic_prior_left_ = 1.0f;  // of what was remembered when a frame was judged last
   // Of the last frame, its features before its surface cells.
   std::vector<Vector2f> pixel_;
   std::vector<RememberedPoint> remembered_;

@@ -46,6 +46,18 @@ struct DynamicPoints {
     ++size;
   }
 
+  /// Leaves `most` of them, evenly.
+  void thin_out(std::size_t most) {
+    if (size <= most) return;
+    for (std::size_t k = 0; k < most; ++k) {
+      const std::size_t from = k * size / most;
+      feature[k] = feature[from];
+      pair[k] = pair[from];
+      has_step[k] = has_step[from];
+    }
+    size = most;
+  }
+
   const Vector3d& point(std::size_t k) const noexcept { return pair[k].current; }
   Vector3d step(std::size_t k) const { return pair[k].current - pair[k].reference; }
 };
@@ -66,6 +78,7 @@ class MotionGroups {
     if (points.size == 0) return;
     const Workspace::Scope scope(workspace);
     make_pieces(workspace);
+    find_neighbours(workspace);
     while (peel(workspace)) ++count;
     join_limbs(workspace);
   }
@@ -126,6 +139,29 @@ class MotionGroups {
     return false;
   }
 
+  /// Which pieces each one is adjacent to, in their order. O(pieces²), once: growing asks again and again.
+  void find_neighbours(Workspace& workspace) {
+    const auto each_pair = [this](const auto& visit) {
+      for (std::size_t a = 0; a < pieces_; ++a)
+        for (std::size_t b = a + 1; b < pieces_; ++b)
+          if (adjacent(a, b)) visit(a, b);
+    };
+    first_neighbour_ = workspace.take<std::size_t>(pieces_ + 1, 0);
+    each_pair([this](std::size_t a, std::size_t b) { ++first_neighbour_[a + 1], ++first_neighbour_[b + 1]; });
+    for (std::size_t piece = 0; piece < pieces_; ++piece) first_neighbour_[piece + 1] += first_neighbour_[piece];
+    neighbour_ = workspace.take<std::uint32_t>(first_neighbour_[pieces_]);
+    const span<std::size_t> end = workspace.take<std::size_t>(pieces_);
+    std::copy_n(first_neighbour_.begin(), pieces_, end.begin());
+    each_pair([&](std::size_t a, std::size_t b) {
+      neighbour_[end[a]++] = static_cast<std::uint32_t>(b);
+      neighbour_[end[b]++] = static_cast<std::uint32_t>(a);
+    });
+  }
+
+  span<const std::uint32_t> neighbours(std::size_t piece) const {
+    return {neighbour_.data() + first_neighbour_[piece], first_neighbour_[piece + 1] - first_neighbour_[piece]};
+  }
+
   bool near(std::uint32_t i, std::uint32_t j) const {
     return (points_.point(i) - points_.point(j)).squaredNorm() <= kReach_m * kReach_m;
   }
@@ -178,13 +214,12 @@ class MotionGroups {
     chosen[seed] = 1;
     while (head < tail) {
       const std::size_t from = queue[head++];
-      for (std::size_t other = 0; other < pieces_; ++other) {
+      for (const std::uint32_t other : neighbours(from)) {
         if (chosen[other] != 0 || group_[other] != kNone) continue;
         const Vote votes = vote(other, translation);
         if (votes.steps > 0 && 2 * votes.support < static_cast<float>(votes.steps)) continue;
-        if (!adjacent(from, other)) continue;
         chosen[other] = 1;
-        queue[tail++] = static_cast<std::uint32_t>(other);
+        queue[tail++] = other;
         total += votes.support;
       }
     }
@@ -228,11 +263,11 @@ class MotionGroups {
       if (group_[piece] != kNone) size[static_cast<std::size_t>(group_[piece])] += members(piece).size();
     const span<std::int32_t> into = workspace.take<std::int32_t>(count + pieces_, kNone);
     for (std::size_t a = 0; a < pieces_; ++a) {
-      for (std::size_t b = 0; b < pieces_; ++b) {
+      for (const std::uint32_t b : neighbours(a)) {
         if (group_[b] == kNone || group_[a] == group_[b]) continue;
         const auto to = static_cast<std::size_t>(group_[b]);
         const std::size_t own = group_[a] == kNone ? members(a).size() : size[static_cast<std::size_t>(group_[a])];
-        if (!(static_cast<double>(own) < kLimb * static_cast<double>(size[to])) || !adjacent(a, b)) continue;
+        if (!(static_cast<double>(own) < kLimb * static_cast<double>(size[to]))) continue;
         std::int32_t& target = into[group_[a] == kNone ? count + a : static_cast<std::size_t>(group_[a])];
         if (target == kNone || size[to] > size[static_cast<std::size_t>(target)]) target = group_[b];
       }
@@ -254,6 +289,8 @@ class MotionGroups {
   span<Eigen::Vector3f> centre_;
   span<float> radius_;
   span<std::int32_t> group_;
+  span<std::size_t> first_neighbour_;
+  span<std::uint32_t> neighbour_;
 };
 
 }  // namespace stillpoint

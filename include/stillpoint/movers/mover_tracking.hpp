@@ -92,6 +92,7 @@ class MoverTracking {
 
  private:
   static constexpr std::size_t kMostObjects = 32;
+  static constexpr std::size_t kMostLoose = 4000;  // features that are grouped: K-means takes 10 ms of them
   static constexpr std::int32_t kNone = -1;
   static constexpr double kTentative_s = 0.2;  // an object that was never reported is forgotten after so long
 
@@ -114,6 +115,7 @@ class MoverTracking {
         features.object_of[i] = object;
       }
     }
+    loose.thin_out(kMostLoose);
     return loose;
   }
 

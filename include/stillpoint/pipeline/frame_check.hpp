@@ -5,6 +5,8 @@
 // Which frames can be judged at all, before any stage sees them.
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "stillpoint/core/frame.hpp"
@@ -31,6 +33,8 @@ struct FrameCheck {
     const PixelFormat depth = frame.depth.image.format;
     const bool is_raw = depth == PixelFormat::depth16;
     if (!frame.depth.empty() && !is_raw && depth != PixelFormat::depth32f) return Status::unsupported_image;
+    for (const ImageView* view : {&frame.gray, &frame.colour, &frame.depth.image})
+      if (!view->empty() && !has_whole_rows(*view)) return Status::unsupported_image;
     if (!frame.depth.empty() && is_raw && !DepthView::is_unit(frame.depth.factor)) return Status::depth_unit_missing;
     for (const ImageView* view : {&frame.gray, &frame.colour})
       if (!view->empty() && !has_size(*view, camera)) return Status::size_changed;
@@ -57,6 +61,14 @@ struct FrameCheck {
   }
 
  private:
+  /// A stride in pixels instead of bytes makes rows overlap; a pixel of 16 or 32 bit lies at an address of its own
+  /// size.
+  static bool has_whole_rows(const ImageView& image) noexcept {
+    const std::size_t pixel = bytes_per_pixel(image.format), alignment = image.format == PixelFormat::bgr8 ? 1 : pixel;
+    return image.stride_bytes / pixel >= static_cast<std::size_t>(image.width) && image.stride_bytes % alignment == 0 &&
+           reinterpret_cast<std::uintptr_t>(image.data) % alignment == 0;
+  }
+
   static constexpr double kLatest_s = 1e11;  // the year 5138; nanoseconds since 1970 are 10 million times that
 
   /// Looks at some hundred pixels.

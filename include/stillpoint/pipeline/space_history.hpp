@@ -37,32 +37,33 @@ struct PooledDepth {
     constexpr int kBlocksAcross = 160;
     block_px = std::max(1.0f, static_cast<float>(frame.gray.width) / kBlocksAcross);
     width = static_cast<int>(static_cast<float>(frame.gray.width) / block_px);
-    height = static_cast<int>(static_cast<float>(frame.gray.height) / block_px);
+    height = static_cast<int>(std::ceil(static_cast<float>(frame.gray.height) / block_px));
     timestamp_s = frame.timestamp_s;
     filter_from_camera = pose;
     refill(nearest_m, static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
     const ImageView& depth = frame.depth.image;
     if (depth.empty()) return;
     if (depth.format == PixelFormat::depth16)
-      pool<std::uint16_t>(frame.depth);
+      pool<std::uint16_t>(frame.depth, static_cast<float>(frame.gray.height));
     else
-      pool<float>(frame.depth);
+      pool<float>(frame.depth, static_cast<float>(frame.gray.height));
     spread_nearest();
   }
 
  private:
   /// The nearest of each block, compared in the units of the image: one division for a block.
   template <class Depth>
-  void pool(const DepthView& depth) {
+  void pool(const DepthView& depth, float gray_height) {
     constexpr Depth kMost = std::numeric_limits<Depth>::max();
     const float across = static_cast<float>(depth.image.width) / static_cast<float>(width);
-    const float down = static_cast<float>(depth.image.height) / static_cast<float>(height);
+    const float down = static_cast<float>(depth.image.height) / gray_height * block_px;  // the last may be cut off
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u) {
         const int first_u = static_cast<int>(static_cast<float>(u) * across);
         const int last_u = std::max(first_u + 1, static_cast<int>(static_cast<float>(u + 1) * across));
-        const int first_v = static_cast<int>(static_cast<float>(v) * down);
-        const int last_v = std::max(first_v + 1, static_cast<int>(static_cast<float>(v + 1) * down));
+        const int first_v = std::min(static_cast<int>(static_cast<float>(v) * down), depth.image.height - 1);
+        const int last_v =
+            std::min(std::max(first_v + 1, static_cast<int>(static_cast<float>(v + 1) * down)), depth.image.height);
         int known = 0;
         Depth nearest = kMost;
         for (int y = first_v; y < last_v; ++y)

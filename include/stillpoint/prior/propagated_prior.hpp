@@ -40,10 +40,11 @@ class PropagatedPrior : public ForegroundPrior {
   Carrying carrying;
 
   /// An answer of the detector, perhaps late. Answers come in the order of their frames: an older one than the last is
-  /// ignored. So is one of a frame that lies further back than this prior remembers (`ImageMotions::kCapacity`).
+  /// ignored. So is one of a frame that lies further back than this prior remembers (`ImageMotions::kCapacity`), or
+  /// came before `reset()`.
   /// @param timestamp_s  of the frame that was looked at
   void detected(double timestamp_s, const std::vector<Detection>& found) {
-    if (!(timestamp_s > last_answer_s_)) return;
+    if (!(timestamp_s > std::max(last_answer_s_, forgotten_s_))) return;
     const double interval_s = images_.empty() ? 0.0 : images_.newest().elapsed_s;
     if (images_.empty() || timestamp_s > images_.newest().timestamp_s + 0.5 * interval_s) {
       detections = found;
@@ -57,6 +58,7 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// The regions of a frame: what was seen in it, as it was handed over, then what is carried.
   void regions(const FrameView& frame, Regions& regions) {
+    if (frame.timestamp_s <= forgotten_s_) forgotten_s_ = -std::numeric_limits<double>::infinity();  // a new clock
     const ImageMotion& image = images_.push(frame);
     for (CarriedDetection& object : objects_) {
       object.predict(image);
@@ -95,6 +97,7 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// Forgets objects and frames; `detections` stay, they are of the coming frame.
   void reset() noexcept {
+    if (!images_.empty()) forgotten_s_ = images_.newest().timestamp_s;
     objects_.clear();
     images_.clear();
     last_answer_s_ = -std::numeric_limits<double>::infinity();
@@ -197,6 +200,7 @@ class PropagatedPrior : public ForegroundPrior {
   std::vector<Overlap> overlaps_;
   bool is_answered_ = false;  // even if `detections` is empty
   double last_answer_s_ = -std::numeric_limits<double>::infinity();
+  double forgotten_s_ = -std::numeric_limits<double>::infinity();  // frames until then are of before `reset()`
   Workspace workspace_;
 };
 

@@ -29,7 +29,7 @@ class StereoDepth {
   struct Options {
     double nearest_m = 0.5;           ///< what is nearer has no depth; half of it takes twice the time
     double least_disparity_px = 2.0;  ///< what is farther has none: a pixel more or less would be half of its depth
-    int block_px = 5;                 ///< odd, 1 to 255
+    int block_px = 5;                 ///< odd, 1 to 11
     double disparity_sigma_px = 0.3;  ///< standard deviation where there is texture, see `noise()`
     int left_right_px = 1;            ///< disparities found from the right image may differ by so much
     int uniqueness_percent = 10;      ///< by which the best disparity must beat the others
@@ -53,8 +53,8 @@ class StereoDepth {
             "a positive number of pixels");
     require(options.disparity_sigma_px > 0, "disparity_sigma_px", options.disparity_sigma_px,
             "a positive number of pixels");
-    require(options.block_px >= 1 && options.block_px <= 255 && options.block_px % 2 == 1, "block_px", options.block_px,
-            "an odd number of pixels from 1 to 255");
+    require(options.block_px >= 1 && options.block_px <= kLargestBlock_px && options.block_px % 2 == 1, "block_px",
+            options.block_px, "an odd number of pixels from 1 to " + std::to_string(kLargestBlock_px));
     require(options.left_right_px >= 0, "left_right_px", options.left_right_px, "0 or more pixels");
     require(options.uniqueness_percent >= 0 && options.uniqueness_percent <= 100, "uniqueness_percent",
             options.uniqueness_percent, "0 to 100");
@@ -109,6 +109,8 @@ class StereoDepth {
   }
 
  private:
+  // SGBM counts costs in 16 bit: of an ideal pair it measures 99.9 % with 11, 97 % with 21, 0.4 % with 31.
+  static constexpr int kLargestBlock_px = 11;
   static constexpr int kPrefilterCap = 31;  ///< of the horizontal gradient that SGBM compares beside the grey levels
 
   template <class Value>

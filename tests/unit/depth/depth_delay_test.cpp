@@ -191,6 +191,16 @@ TEST_F(DepthDelayTest, SwitchedOffItLooksAtNothing) {
   EXPECT_EQ(delay_.frames(), 0.0);
 }
 
+// Whoever has switched it off is not warned of what it found, nor gets it back.
+TEST_F(DepthDelayTest, SwitchedOffItForgets) {
+  observe(80, 1.0);
+  delay_.is_enabled = false;
+  EXPECT_EQ(delay_.frames(), 0.0);
+  observe(1, 0.0);
+  delay_.is_enabled = true;
+  EXPECT_EQ(delay_.frames(), 0.0);
+}
+
 // A post's left edge at 100 in the late depth; the camera's motion takes it 10 px to the right within a frame.
 TEST_F(DepthDelayTest, UndoneTheDepthLiesOnItsImage) {
   observe(80, 1.0);

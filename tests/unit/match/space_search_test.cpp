@@ -45,6 +45,19 @@ TEST(PooledDepth, KeepsTheNearestDepthOfEachBlock) {
   EXPECT_EQ(pooled.nearest_around({std::numeric_limits<float>::quiet_NaN(), 3}), 0.0f);
 }
 
+// 480 / 5.3 = 90.6 blocks: the last is cut off, and those above it are known.
+TEST(PooledDepth, KnowsTheLastRowsToo) {
+  const cv::Mat gray(480, 848, CV_8UC1, cv::Scalar(50));
+  cv::Mat depth(480, 848, CV_32FC1, cv::Scalar(3.0));
+  depth.at<float>(475, 400) = 1.0f;
+  PooledDepth pooled;
+  pooled.assign(view_of(gray, depth, 0), Pose::Identity());
+  EXPECT_EQ(pooled.height, 91);
+  EXPECT_EQ(pooled.nearest_around({400, 474}), 1.0f);
+  EXPECT_EQ(pooled.nearest_around({500, 474}), 3.0f);
+  EXPECT_EQ(pooled.nearest_around({500, 479}), 0.0f) << "a border block has neighbours that are unknown";
+}
+
 TEST(SpaceHistory, KeepsAViewEachFourTenthsOfASecond) {
   const cv::Mat gray(kHeight, kWidth, CV_8UC1, cv::Scalar(50)), depth(kHeight, kWidth, CV_32FC1, cv::Scalar(3.0));
   SpaceHistory history;

@@ -45,6 +45,8 @@ class EvidenceMemoryTest : public testing::Test {
     for (const Feature& feature : features) pixels.push_back(feature.pixel);
     matches_.begin(pixels);
     matches_.elapsed_s = elapsed_s_;
+    matches_.unjudged_s = unjudged_s_;
+    matches_.pixel_scale = pixel_scale_;
     for (std::size_t i = 0; i < features.size(); ++i) {
       matches_.current.depth_m[i] = features[i].depth_m;
       matches_.current.depth_sigma_m[i] = 0.008;  // one surface: within 0.06 + 5 · 0.008 = 0.1 m
@@ -74,7 +76,9 @@ class EvidenceMemoryTest : public testing::Test {
   EvidenceMemory memory_;
   Matches matches_;
   Remembered remembered_;
-  double elapsed_s_ = kElapsed_s;      ///< from each frame to the next
+  double elapsed_s_ = kElapsed_s;  ///< from each frame to the next
+  double unjudged_s_ = 0;
+  float pixel_scale_ = 1;
   std::vector<SurfaceCell> surfaces_;  ///< of every frame
   std::vector<Label> labels_;
   Workspace workspace_;
@@ -186,6 +190,30 @@ TEST_F(EvidenceMemoryTest, LogOddsFadeWithTimeNotWithFrames) {
   frame(0.0f);
   frame(0.0f);
   EXPECT_NEAR(labels_[0].log_odds, 0.75f, kRounding) << "two frames of 0.1 s are one of 0.2 s";
+}
+
+// Frames that were not judged came between: what is remembered is of 0.1 s before the reference, twice as old. Of a
+// dynamic prior of 1 there is 0.9² = 0.81 left, a static prior of 1 − 0.99 · 0.81.
+TEST_F(EvidenceMemoryTest, WhatIsRememberedAgesInFramesThatAreNotJudged) {
+  frame(3.0f);
+  unjudged_s_ = 0.1;
+  frame(0.0f);
+  EXPECT_NEAR(labels_[0].log_odds, 0.75f, kRounding);
+  EXPECT_NEAR(remembered_.static_prior[0], 0.1981f, kRounding);
+}
+
+// A focal length of a quarter: what was within 25 px is within 6.
+TEST_F(EvidenceMemoryTest, AHostsMapReachesAsFarInAnyImage) {
+  const std::vector<Feature> features = {{Vector2f(50, 50)}, {Vector2f(60, 50)}};
+  for (const auto& [scale, reaches] : {std::pair(1.0f, true), std::pair(0.25f, false)}) {
+    pixel_scale_ = scale;
+    memory_.reset();
+    frame(features, {-3, -3});
+    memory_.expect_dynamic(std::vector<std::uint8_t>{1, 0});
+    frame(features, {-3, -3});
+    EXPECT_FALSE(labels_[0].keep);
+    EXPECT_EQ(labels_[1].keep, !reaches) << scale;
+  }
 }
 
 // Nobody followed the feature. A corner 10 px beside it on its surface came from 70 px to the left: so did the feature.

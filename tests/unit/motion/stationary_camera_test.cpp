@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 
 #include "motion_scene.hpp"
 #include "unit/observations_of.hpp"
@@ -219,6 +220,18 @@ TEST_F(StationaryCameraTest, AWallBehindAPersonIsEnoughInAnOlderFrameToo) {
   move(reproject_into_past(), 0, 90, 4.0f);
   EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_)))
       << "all that is left at rest belongs to the person";
+}
+
+// What moved by 4 px is at 2 m. If the camera had moved, a wall at 20 m would show 4 · 2 / 20 = 0.4 px, which is seen;
+// one at 100 m 0.08 px.
+TEST_F(StationaryCameraTest, AWallTooFarAwayToShowTheMotionProvesNothing) {
+  for (const auto& [wall_m, stands] : {std::pair(20.0, true), std::pair(100.0, false)}) {
+    matches_ = Matches();
+    add(20, 0.0, wall_m);
+    add(80, 0.0, 2.0);
+    move(reproject_into_past(), 20, 80, 4.0f);
+    EXPECT_EQ(camera_.since_older_frames(test::observations_of(matches_)), stands) << wall_m;
+  }
 }
 
 TEST_F(StationaryCameraTest, ALostObservationSaysNothing) {

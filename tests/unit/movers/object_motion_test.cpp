@@ -206,6 +206,22 @@ DynamicPoints points_of(const std::vector<WhitenedPair>& pairs, Workspace& works
   return points;
 }
 
+TEST(DynamicPoints, AreThinnedOutEvenly) {
+  Random random(4);
+  Workspace workspace;
+  DynamicPoints points = points_of(pairs_of({0, 0, 2}, shift(0, 0, 0), 10, random), workspace);
+  const Vector3d seventh = points.point(7);
+  points.thin_out(10);
+  EXPECT_EQ(points.size, 10u);
+  points.has_step[5] = 0;
+  points.thin_out(4);
+  ASSERT_EQ(points.size, 4u);
+  const std::uint32_t left[] = {0, 2, 5, 7};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(points.feature[k], left[k]);
+  EXPECT_EQ(points.point(3), seventh);
+  EXPECT_EQ(points.has_step[2], 0);
+}
+
 TEST(MotionGroups, TwoThatTouchAndGoOppositeWaysAreTwoGroups) {
   Random random(5);
   Workspace workspace;

@@ -193,6 +193,27 @@ TEST_F(FrameFilterTest, WithoutAMotionEverythingIsKeptAndTheFrameBecomesTheRefer
   }
 }
 
+// The memory is told how old it is: 1.1 was judged last, the reference of 1.5 is 1.4.
+TEST_F(FrameFilterTest, SaysHowLongNothingWasJudged) {
+  at(1.0);
+  at(1.1);
+  EXPECT_EQ(filter_.memory.unjudged_s, 0.0);
+  filter_.filter_frame(FrameView(gray_, DepthView::tum(depth_), 1.2), std::vector<cv::KeyPoint>());
+  filter_.ego_motion.answer.status = Status::no_consensus;
+  at(1.3);
+  at(1.4);
+  filter_.ego_motion.answer.status = Status::ok;
+  at(1.5);
+  EXPECT_NEAR(filter_.memory.unjudged_s, 0.3, 1e-9);
+  at(1.6);
+  EXPECT_EQ(filter_.memory.unjudged_s, 0.0);
+  at(1.7);
+  filter_.reset();
+  at(1.8);
+  at(1.9);
+  EXPECT_EQ(filter_.memory.unjudged_s, 0.0);
+}
+
 TEST_F(FrameFilterTest, WarningsOfTheMotionAreThoseOfAJudgedFrame) {
   double time_s = 1.0;
   at(time_s);

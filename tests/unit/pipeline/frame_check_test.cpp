@@ -48,6 +48,23 @@ TEST_F(FrameCheckTest, NamesImagesItCannotRead) {
     EXPECT_EQ(check(cv::Mat(6, 8, type, cv::Scalar(0)), DepthView::tum(depth_)), Status::unsupported_image) << type;
 }
 
+TEST_F(FrameCheckTest, NamesRowsThatOverlapOrLieAtOddAddresses) {
+  const auto depth = [&](std::size_t stride, std::size_t shift = 0) {
+    return DepthView::millimetres(ImageView(depth_.data + shift, 7, 4, stride, PixelFormat::depth16));
+  };
+  EXPECT_EQ(check(gray_, depth(16)), Status::ok);
+  EXPECT_EQ(check(gray_, depth(14)), Status::ok);
+  EXPECT_EQ(check(gray_, depth(7)), Status::unsupported_image) << "a stride in pixels";
+  EXPECT_EQ(check(gray_, depth(0)), Status::unsupported_image);
+  EXPECT_EQ(check(gray_, depth(15)), Status::unsupported_image) << "every second row at an odd address";
+  EXPECT_EQ(check(gray_, depth(16, 1)), Status::unsupported_image);
+  for (const auto& [stride, status] : {std::pair(23u, Status::unsupported_image), std::pair(25u, Status::ok)}) {
+    const ImageView colour(colour_.data, 8, 5, stride, PixelFormat::bgr8);
+    camera_ = Camera(5, 5, 4, 3, 8, 5);
+    EXPECT_EQ(check(FrameView(colour, DepthView(), 1.1)), status) << stride;
+  }
+}
+
 TEST_F(FrameCheckTest, NamesDepthsItCannotRead) {
   for (const int type : {CV_8UC1, CV_8UC3, CV_64FC1, CV_32FC3, CV_16SC1})
     EXPECT_EQ(check(gray_, DepthView(cv::Mat(6, 8, type, cv::Scalar(0)))), Status::unsupported_image) << type;

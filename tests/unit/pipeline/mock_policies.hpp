@@ -119,7 +119,11 @@ struct Classifier : Stage {
 };
 
 struct Memory : Stage {
-  void update(const Observations&, const Motion&, const Evidence&, span<Label>, Workspace&) const { note("memory"); }
+  double unjudged_s = 0;
+  void update(const Observations& observations, const Motion&, const Evidence&, span<Label>, Workspace&) {
+    note("memory");
+    unjudged_s = observations.matches.unjudged_s;
+  }
   void reset() { note("memory.reset"); }
 };
 

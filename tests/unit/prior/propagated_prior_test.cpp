@@ -464,6 +464,22 @@ TEST_F(PropagatedPriorTest, ResetForgetsThingsAndFrames) {
   EXPECT_EQ(next().detections.size(), 1u);
 }
 
+// A detector that runs beside the filter answers after the filter was reset.
+TEST_F(PropagatedPriorTest, AnswersOfFramesBeforeAResetAreIgnored) {
+  for (int i = 0; i < 3; ++i) next();
+  prior_.reset();
+  prior_.detected(now_s(), {seen(truth_)});
+  EXPECT_TRUE(next().detections.empty()) << "of another place";
+  prior_.reset();
+  prior_.detected(time_s(frame_ + 1), {seen(truth_)});
+  EXPECT_EQ(next().detections.size(), 1u) << "of the coming frame";
+  prior_.reset();
+  frame_ = -50;  // a recording begins anew
+  next();
+  prior_.detected(now_s(), {seen(truth_)});
+  EXPECT_EQ(prior_.objects().size(), 1u);
+}
+
 TEST_F(PropagatedPriorTest, WithoutDepthTheFeaturesInTheBoxCarryIt) {
   Regions regions;
   Box box = {100, 80, 40, 60};

@@ -195,9 +195,9 @@ TEST(StereoDepth, OptionsThatMakeNoSenseAreNamed) {
             "stereo: baseline_m is nan, expected a positive number of metres");
   StereoDepth::Options options;
   options.block_px = 4;
-  EXPECT_EQ(message(0.1, options), "stereo: block_px is 4, expected an odd number of pixels from 1 to 255");
-  options.block_px = 10001;  // whose area times OpenCV's penalties is no int any more
-  EXPECT_EQ(message(0.1, options), "stereo: block_px is 10001, expected an odd number of pixels from 1 to 255");
+  EXPECT_EQ(message(0.1, options), "stereo: block_px is 4, expected an odd number of pixels from 1 to 11");
+  options.block_px = 13;  // the costs of much larger ones are no 16-bit numbers any more: hardly any depth
+  EXPECT_EQ(message(0.1, options), "stereo: block_px is 13, expected an odd number of pixels from 1 to 11");
   options = {};
   options.least_disparity_px = 0.0;
   EXPECT_EQ(message(0.1, options), "stereo: least_disparity_px is 0, expected a positive number of pixels");

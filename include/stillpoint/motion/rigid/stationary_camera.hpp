@@ -13,8 +13,8 @@
 namespace stillpoint {
 
 /// A stationary camera has exactly no motion, which needs far less support than one that was estimated: a moving camera
-/// leaves nothing at rest but what is fixed to it, and that lies before the world, not behind. Without this, a person
-/// who stands close before the lens and sways takes the pose along.
+/// leaves nothing at rest but what is fixed to it, and that lies before the world, and what is too far away to show its
+/// motion. Without this, a person who stands close before the lens and sways takes the pose along.
 struct StationaryCamera {
   bool is_enabled = true;  ///< false: no camera is taken for stationary; no option in files
 
@@ -24,15 +24,13 @@ struct StationaryCamera {
     Census census;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i)) continue;
-      census.count(at_rest(matches, i), observations, i);
+      census.count(moved_px(matches, i), observations, i);
     }
-    return stands(census, stood);
+    return stands(census, stood, 0.0);
   }
 
   /// @param i  a match
-  bool at_rest(const Matches& matches, std::size_t i) const {
-    return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm() < kRest_px;
-  }
+  bool at_rest(const Matches& matches, std::size_t i) const { return moved_px(matches, i) < kRest_px; }
 
   /// Since the oldest frame that was looked at and in which the camera is thought to have stood already: a slow
   /// motion is at rest from frame to frame.
@@ -46,10 +44,10 @@ struct StationaryCamera {
     for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
       const Observation& observation = oldest->of_feature[i];
       if (observation.state != ObservationState::seen || !(observation.dissimilarity < 2.0f)) continue;
-      const double moved_px = (matches.current.undistorted[i] - Vector2d(observation.found.cast<double>())).norm();
-      census.count(moved_px < kRest_px, observations, i);
+      census.count((matches.current.undistorted[i] - Vector2d(observation.found.cast<double>())).norm(), observations,
+                   i);
     }
-    return census.empty() || stands(census, true);
+    return census.empty() || stands(census, true, kRest_px);
   }
 
  private:
@@ -60,32 +58,44 @@ struct StationaryCamera {
 
   struct Group {
     double weight = 0;
+    double moved_px = 0;                       ///< Σ weight times how far each moved
     double with_depth = 0, inverse_depth = 0;  ///< weight of those with a depth; Σ weight / depth
+
+    double mean_moved_px() const { return weight > 0 ? moved_px / weight : 0.0; }
+    double mean_inverse_depth() const { return with_depth > 0 ? inverse_depth / with_depth : 0.0; }
   };
   struct Census {
     Group resting, moving;
 
     bool empty() const noexcept { return !(resting.weight + moving.weight > 0); }
 
-    void count(bool at_rest, const Observations& observations, std::size_t i) {
+    void count(double moved_px, const Observations& observations, std::size_t i) {
       const FrameFeatures& current = observations.matches.current;
-      Group& group = at_rest ? resting : moving;
+      Group& group = moved_px < kRest_px ? resting : moving;
       const auto weight = static_cast<double>(observations.remembered.static_prior[i]);
       group.weight += weight;
+      group.moved_px += weight * moved_px;
       if (!current.has_depth(i)) return;
       group.with_depth += weight;
       group.inverse_depth += weight / current.depth_m[i];
     }
   };
 
-  bool stands(const Census& census, bool stood) const {
+  static double moved_px(const Matches& matches, std::size_t i) {
+    return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm();
+  }
+
+  /// @param least_parallax_px  of what is at rest and behind the rest, if the camera moved: else it says nothing
+  bool stands(const Census& census, bool stood, double least_parallax_px) const {
     const double all = census.resting.weight + census.moving.weight;
     if (!is_enabled || !(all > 0)) return false;
     const double share = census.resting.weight / all;
     if (share > (stood ? kMajorityShare : kBeginsShare)) return true;
-    const bool behind = census.resting.inverse_depth * census.moving.with_depth <
-                        census.moving.inverse_depth * census.resting.with_depth;
-    return stood && share > kContinuesShare && behind;
+    const double resting_inverse_m = census.resting.mean_inverse_depth();
+    const double moving_inverse_m = census.moving.mean_inverse_depth();
+    const bool is_behind = census.resting.with_depth > 0 && resting_inverse_m < moving_inverse_m;
+    return stood && share > kContinuesShare && is_behind &&
+           census.moving.mean_moved_px() * resting_inverse_m >= least_parallax_px * moving_inverse_m;
   }
 };
 
