@@ -4,6 +4,7 @@
 
 // Where each feature is now and where it was before: the table that the matcher fills.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -34,6 +35,9 @@ struct FrameFeatures {
 
   std::size_t size() const noexcept { return pixel.size(); }
   bool has_depth(std::size_t i) const noexcept { return depth_m[i] > 0.0; }
+  bool any_depth() const noexcept {
+    return std::any_of(depth_m.begin(), depth_m.end(), [](double depth) { return depth > 0.0; });
+  }
 
   void resize(std::size_t count) {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -91,9 +91,9 @@ class SupportMotion {
                         rest_is_evidence(selected, points, features, matches, problem, camera, workspace);
     const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, kAgainCutoffs, problem);
 
-    motion.status = any_depth(matches) ? Status::no_consensus : Status::no_depth;
+    motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
     const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
-    if (!(explained > kLeastSupport) || !any_depth(matches)) return motion;
+    if (!(explained > kLeastSupport) || motion.status == Status::no_depth) return motion;
     motion.status = Status::ok;
     motion.doubtful = noise.depth_scale >= kMostDepthNoise && explained < kSureSupport;
     if (is_inverted) motion.warnings = Warning::consensus_inverted;
@@ -142,9 +142,8 @@ class SupportMotion {
   static constexpr double kLeastSupport = 0.08;   // share of all weight that the motion must explain
   static constexpr double kSureSupport = 0.4;     // less is doubtful where depths do not fit near what is expected
   static constexpr double kMostPriorLoss = 12.6;  // 95 % quantile of χ²₆: what a motion may cost points that fit it
-  static constexpr double kSlowMotionGain = 60.0;  // squared sigmas by which a motion must beat the identity
-  static constexpr double kLeastPixelSigma =
-      0.1;  // of the measured noise, pixels; the most is `constraints.pixel_sigma`
+  static constexpr double kSlowMotionGain = 60.0;   // squared sigmas by which a motion must beat the identity
+  static constexpr double kLeastPixelSigma = 0.1;   // of the measured noise; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
   static constexpr std::size_t kFewestMatches = 6;  // twice a minimal sample
 
@@ -203,9 +202,8 @@ class SupportMotion {
   }
 
   /// The motion with all points at full weight, where the support weighted by the static prior hardly falls: objects
-  /// that moved before are parked, and their points are as good as any. Else the weighted hypothesis as it is. If all
-  /// points are static, the loss has a χ² distribution of six degrees of freedom: its 95 % quantile is the most. An
-  /// object that has just started moves a few corners by less than their noise, and would take the motion along.
+  /// that moved before are parked, and their points are as good as any. Else the weighted hypothesis as it is: an
+  /// object that has just started would take the motion along. Of static points the loss is distributed as χ²₆.
   template <class Camera>
   Hypothesis with_all_points(const Hypothesis& weighted, span<const double> cutoffs,
                              SupportProblem<Camera>& problem) const {
@@ -216,10 +214,6 @@ class SupportMotion {
     if (all.information.isZero()) return weighted;
     all.support = problem.support(all.reference_from_current);
     return problem.squared_residuals_of(weighted.support - all.support) < kMostPriorLoss ? all : weighted;
-  }
-
-  static bool any_depth(const Matches& matches) noexcept {
-    return std::any_of(matches.current.depth_m.begin(), matches.current.depth_m.end(), [](double d) { return d > 0; });
   }
 
   template <class Camera>
@@ -235,9 +229,9 @@ class SupportMotion {
   template <class Camera>
   SupportNoise calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem,
                          Workspace& workspace) const {
-    const double most_sigma = constraints.pixel_sigma;
-    return problem.calibrate(reference_from_current, {measures_noise ? kLeastPixelSigma : most_sigma, 1.0},
-                             {most_sigma, measures_noise ? kMostDepthNoise : 1.0}, workspace);
+    const double most_px = constraints.pixel_sigma, least_px = measures_noise ? kLeastPixelSigma : most_px;
+    return problem.calibrate(reference_from_current, {least_px, 1.0}, {most_px, measures_noise ? kMostDepthNoise : 1.0},
+                             workspace);
   }
 
   /// The best motion of three points, refined; no support where none explains more points than `past`.
