@@ -114,8 +114,8 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
-  /// that its budget goes to static features. Everywhere, where the last frame was not judged or an option is out of
-  /// its range. It knows no keep-floor.
+  /// that its budget goes to static features. Everywhere, where the last frame was not judged, is more than a second
+  /// older or not older at all, or an option is out of its range. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
   /// @param margin_px    more is dropped around moving objects; 8 in all measured figures (docs/adopting.md)
   /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
