@@ -64,13 +64,15 @@ class ObjectIdentity {
   }
 
   /// May it be a limb that swings faster than the body it hangs on? Nobody knows until it has been seen for a while. A
-  /// foot may be all that is seen of a leg, farther from the body. What no limb of that body does is another object.
+  /// foot may be all that is seen of a leg, farther from the body, and comes out before the body that has just passed
+  /// behind something. What no limb of that body does is another object.
   static bool may_be_limb(const std::vector<TrackedObject>& objects, std::size_t candidate, double timestamp_s) {
     constexpr double kStride_s = 0.5, kMoves_m_s = 0.1, kFoot_m = 1.0;
     const TrackedObject& part = objects[candidate];
     if (timestamp_s - part.mover.first_seen_s > kStride_s) return false;
     return std::any_of(objects.begin(), objects.end(), [&](const TrackedObject& object) {
-      if (&object == &part || !object.is_confirmed || !object.is_seen || !(object.mean_speed() > kMoves_m_s) ||
+      const bool is_about = timestamp_s - object.mover.last_seen_s <= kStride_s;
+      if (&object == &part || !object.is_confirmed || !is_about || !(object.mean_speed() > kMoves_m_s) ||
           !is_small(part, object))
         return false;
       return gap_m(part, object) < kFoot_m && swing(part, object) < 1.0;
@@ -151,9 +153,10 @@ class ObjectIdentity {
     return motion * motion;
   }
 
-  /// By features, a limb has less than half of its body's.
+  /// By features, a limb has less than half of its body's. One that has gone behind something had few at the end: there
+  /// by length.
   static bool is_small(const TrackedObject& part, const TrackedObject& object) {
-    return 2 * part.members < object.members;
+    return object.is_seen ? 2 * part.members < object.members : 2 * part.size_m.norm() < object.size_m.norm();
   }
 
   static void take_identity(const TrackedObject& known, TrackedObject& object) {

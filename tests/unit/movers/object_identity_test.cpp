@@ -126,6 +126,18 @@ TEST(ObjectIdentity, WhatMayBeALimbWaitsForAStride) {
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
 }
 
+// He has just passed behind somebody, of whom 13 features were left at the end. His foot comes out first.
+TEST(ObjectIdentity, AFootThatComesOutBeforeItsBodyWaitsToo) {
+  const TrackedObject walks = walker(1, {0, 0, 2});
+  std::vector<TrackedObject> objects = {lost(walks, 0.1), strip({0.3, 1.1, 2}, {2.0, 0, 0})};
+  objects[0].members = 13;
+  EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects[1].size_m.y() = 0.9;  // more than half of a person
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects = {lost(walks, 0.6), strip({0.3, 1.1, 2}, {2.0, 0, 0})};
+  EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s)) << "nobody knows where he is by now";
+}
+
 // A foot that was reported by itself, 0.05 m below the body's box, swings at 1.5 m/s where the body walks at 0.8 m/s:
 // 0.7 / (0.3 + 1.5 · 0.8) of what limbs do. Once it is lost it is the body's; as long as it is seen, or where it went
 // the other way, or lies elsewhere, or the body is lost as well, it is itself.
