@@ -44,7 +44,7 @@ class PropagatedPrior : public ForegroundPrior {
   /// came before `reset()`.
   /// @param timestamp_s  of the frame that was looked at
   void detected(double timestamp_s, const std::vector<Detection>& found) {
-    if (!(timestamp_s > std::max(last_answer_s_, forgotten_s_))) return;
+    if (!(timestamp_s > last_answer_s_) || is_forgotten(timestamp_s)) return;
     const double interval_s = images_.empty() ? 0.0 : images_.newest().elapsed_s;
     if (images_.empty() || timestamp_s > images_.newest().timestamp_s + 0.5 * interval_s) {
       detections = found;
@@ -58,7 +58,6 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// The regions of a frame: what was seen in it, as it was handed over, then what is carried.
   void regions(const FrameView& frame, Regions& regions) {
-    if (frame.timestamp_s <= forgotten_s_) forgotten_s_ = -std::numeric_limits<double>::infinity();  // a new clock
     const ImageMotion& image = images_.push(frame);
     for (CarriedDetection& object : objects_) {
       object.predict(image);
@@ -179,6 +178,11 @@ class PropagatedPrior : public ForegroundPrior {
     std::sort(overlaps_.begin(), overlaps_.end(), [](const Overlap& a, const Overlap& b) {
       return std::tie(b.of_union, a.fresh, a.object) < std::tie(a.of_union, b.fresh, b.object);
     });
+  }
+
+  /// Of a frame before `reset()`? What is older than boxes live is of another recording's clock.
+  bool is_forgotten(double timestamp_s) const noexcept {
+    return timestamp_s <= forgotten_s_ && timestamp_s >= forgotten_s_ - carrying.longest_s;
   }
 
   void forget(const ImageMotion& image) {

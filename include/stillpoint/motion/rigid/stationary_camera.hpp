@@ -26,7 +26,7 @@ struct StationaryCamera {
       if (!matches.matched(i)) continue;
       census.count(moved_px(matches, i), observations, i);
     }
-    return stands(census, stood, 0.0);
+    return stands(census, stood);
   }
 
   /// @param i  a match
@@ -47,14 +47,15 @@ struct StationaryCamera {
       census.count((matches.current.undistorted[i] - Vector2d(observation.found.cast<double>())).norm(), observations,
                    i);
     }
-    return census.empty() || stands(census, true, kRest_px);
+    return census.empty() || stands(census, true);
   }
 
  private:
   static constexpr double kRest_px = 0.3;          // a corner that moved less is at rest
   static constexpr double kBeginsShare = 0.9;      // of the weight of all corners that is at rest when a camera stops
   static constexpr double kMajorityShare = 0.5;    // while it is stationary, so much is enough …
-  static constexpr double kContinuesShare = 0.05;  // … or so much, if it lies behind the rest
+  static constexpr double kContinuesShare = 0.05;  // … or so much, if it lies behind the rest …
+  static constexpr double kParallax_px = 0.05;  // … and would have moved so far, if the camera had: else it is too far
 
   struct Group {
     double weight = 0;
@@ -85,8 +86,7 @@ struct StationaryCamera {
     return (matches.current.undistorted[i] - matches.reference.undistorted[i]).norm();
   }
 
-  /// @param least_parallax_px  of what is at rest and behind the rest, if the camera moved: else it says nothing
-  bool stands(const Census& census, bool stood, double least_parallax_px) const {
+  bool stands(const Census& census, bool stood) const {
     const double all = census.resting.weight + census.moving.weight;
     if (!is_enabled || !(all > 0)) return false;
     const double share = census.resting.weight / all;
@@ -94,8 +94,8 @@ struct StationaryCamera {
     const double resting_inverse_m = census.resting.mean_inverse_depth();
     const double moving_inverse_m = census.moving.mean_inverse_depth();
     const bool is_behind = census.resting.with_depth > 0 && resting_inverse_m < moving_inverse_m;
-    return stood && share > kContinuesShare && is_behind &&
-           census.moving.mean_moved_px() * resting_inverse_m >= least_parallax_px * moving_inverse_m;
+    const bool would_show = census.moving.mean_moved_px() * resting_inverse_m >= kParallax_px * moving_inverse_m;
+    return stood && share > kContinuesShare && is_behind && would_show;
   }
 };
 

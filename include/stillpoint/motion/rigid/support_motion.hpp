@@ -88,7 +88,7 @@ class SupportMotion {
             past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& selected = sampled.support > past.support && !is_inverted ? sampled : past;
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
-                        rest_is_evidence(selected, points, features, matches, problem, camera, workspace);
+                        has_no_slow_motion(points, features, matches, camera, workspace);
     const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, kAgainCutoffs, problem);
 
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
@@ -137,11 +137,11 @@ class SupportMotion {
   }
 
  private:
-  static constexpr double kConfidence = 0.9996;   // of not missing what explains more than the past
-  static constexpr double kSameMotion_px = 1.0;   // hypotheses that move the matches less apart on average are one
-  static constexpr double kLeastSupport = 0.08;   // share of all weight that the motion must explain
-  static constexpr double kSureSupport = 0.4;     // less is doubtful where depths do not fit near what is expected
-  static constexpr double kMostPriorLoss = 12.6;  // 95 % quantile of χ²₆: what a motion may cost points that fit it
+  static constexpr double kConfidence = 0.9996;     // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;     // hypotheses that move the matches less apart on average are one
+  static constexpr double kLeastSupport = 0.08;     // share of all weight that the motion must explain
+  static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
+  static constexpr double kMostPriorLoss = 12.6;    // 95 % quantile of χ²₆: what all points at full weight may cost
   static constexpr double kSlowMotionGain = 60.0;   // squared sigmas by which a motion must beat the identity
   static constexpr double kLeastPixelSigma = 0.1;   // of the measured noise; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
@@ -171,12 +171,10 @@ class SupportMotion {
             camera, options.inlier_sigmas};
   }
 
-  /// Does what is at rest say that the camera is? Not where a motion too small to see in any corner by itself explains
-  /// it better, nor where the motion that explains all the others costs it nothing: it is too far away to tell.
+  /// Is what is at rest better explained by a motion too small to see in any corner by itself?
   template <class Camera>
-  bool rest_is_evidence(const Hypothesis& selected, span<const PointConstraint> points,
-                        span<const std::uint32_t> features, const Matches& matches, const SupportProblem<Camera>& all,
-                        const Camera& camera, Workspace& workspace) const {
+  bool has_no_slow_motion(span<const PointConstraint> points, span<const std::uint32_t> features,
+                          const Matches& matches, const Camera& camera, Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
     std::size_t count = 0;
@@ -186,11 +184,7 @@ class SupportMotion {
     SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
     calibrate(Pose::Identity(), problem, workspace);
     const Hypothesis moved = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
-    const double at_rest = problem.support(Pose::Identity());
-    if (!(problem.squared_residuals_of(moved.support - at_rest) < kSlowMotionGain)) return false;
-    const double gain = all.squared_residuals_of(selected.support - all.support(Pose::Identity()));
-    const double cost = problem.squared_residuals_of(at_rest - problem.support(selected.reference_from_current));
-    return !(gain > kSlowMotionGain && cost < kMostPriorLoss);
+    return problem.squared_residuals_of(moved.support - problem.support(Pose::Identity())) < kSlowMotionGain;
   }
 
   /// No motion, as well known as the support allows.
