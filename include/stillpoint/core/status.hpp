@@ -16,7 +16,8 @@ enum class Status : std::uint8_t {
   ok,
   first_frame,          ///< nothing to compare with yet: after construction or `reset()`
   no_image,             ///< empty image; the filter's state is untouched
-  unsupported_image,    ///< not 8-bit gray or BGR, depth neither 16 bit nor float, or a stride too short
+  unsupported_image,    ///< not 8-bit gray or BGR, depth neither 16 bit nor float, or rows too short; state
+                        ///< untouched
   depth_unit_missing,   ///< 16-bit depth of which nobody says what a metre is (`DepthView::millimetres`); state
                         ///< untouched
   implausible_depth,    ///< half of the depths lie beyond a kilometre: millimetres taken for metres? State untouched

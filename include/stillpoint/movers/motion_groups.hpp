@@ -139,7 +139,8 @@ class MotionGroups {
     return false;
   }
 
-  /// Which pieces each one is adjacent to, in their order. O(pieces²), once: growing asks again and again.
+  /// Which pieces each one is adjacent to, in their order: growing asks again and again. O(pieces²), two passes: the
+  /// first counts what the second fills.
   void find_neighbours(Workspace& workspace) {
     const auto each_pair = [this](const auto& visit) {
       for (std::size_t a = 0; a < pieces_; ++a)
