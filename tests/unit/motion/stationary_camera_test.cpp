@@ -235,6 +235,20 @@ TEST_F(StationaryCameraTest, AWallTooFarAwayToShowTheMotionProvesNothing) {
   }
 }
 
+TEST_F(StationaryCameraTest, NorDoesItWhereItIsTheMajority) {
+  for (const auto& [wall_m, is_evidence] : {std::pair(140.0, true), std::pair(180.0, false)}) {
+    matches_ = Matches();
+    add(95, 0.0, wall_m);
+    add(5, 4.0, 2.0);
+    EXPECT_EQ(stands(true), is_evidence) << wall_m;
+    EXPECT_EQ(stands(false), is_evidence) << wall_m;
+  }
+  matches_ = Matches();
+  add(95, 0.0, kNoDepth);
+  add(5, 4.0, 2.0);
+  EXPECT_TRUE(stands(true)) << "without a depth nobody knows that it is too far";
+}
+
 TEST_F(StationaryCameraTest, ALostObservationSaysNothing) {
   add(100, 0.0, 2.0);
   OlderFrame& frame = reproject_into_past();

@@ -378,6 +378,23 @@ TEST(SupportMotion, WhatIsTooFarAwayToShowTheMotionDoesNotStopTheCamera) {
   }
 }
 
+// Of 200 features 150 lie beyond the range of the depth sensor, at 1000 m; the others move by one to three pixels.
+TEST(SupportMotion, AMajorityBeyondTheRangeOfTheSensorDoesNotHoldTheCamera) {
+  const Pose truth = test::pose_of({0, 0.002, 0}, {0.01, 0, 0});
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Matches matches = scene_of(truth, seed, 0.05);
+    const auto camera = test::test_camera();
+    for (std::size_t i = 0; i < 150; ++i) {
+      const Vector3d point = camera.back_project(matches.reference.undistorted[i], 1000.0);
+      matches.current.undistorted[i] = camera.project(Vector3d(truth * point));
+      matches.reference.set_depth(i, 0.0, 0.0, camera);
+      matches.current.set_depth(i, 0.0, 0.0, camera);
+    }
+    const Motion motion = estimate(matches);
+    EXPECT_LT(test::translation_error(motion.current_from_reference, truth), 1e-3) << seed;
+  }
+}
+
 TEST(SupportMotion, WhoFillsTheViewOfAStationaryCameraDoesNotTakeItAlong) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Matches matches = person_before_a_wall(seed);

@@ -33,7 +33,7 @@ class FrameCheckTest : public testing::Test {
 };
 
 TEST_F(FrameCheckTest, TakesGrayAndColourWithAnyDepth) {
-  const cv::Mat float_depth(3, 4, CV_32FC1);
+  const cv::Mat float_depth(3, 4, CV_32FC1, cv::Scalar(2.0));
   for (const cv::Mat& image : {gray_, colour_}) {
     EXPECT_EQ(check(image, DepthView::tum(depth_)), Status::ok);
     EXPECT_EQ(check(image, DepthView::tum(float_depth)), Status::ok) << "another size is fine";

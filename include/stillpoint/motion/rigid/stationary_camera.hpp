@@ -51,11 +51,11 @@ struct StationaryCamera {
   }
 
  private:
-  static constexpr double kRest_px = 0.3;          // a corner that moved less is at rest
-  static constexpr double kBeginsShare = 0.9;      // of the weight of all corners that is at rest when a camera stops
-  static constexpr double kMajorityShare = 0.5;    // while it is stationary, so much is enough …
-  static constexpr double kContinuesShare = 0.05;  // … or so much, if it lies behind the rest …
-  static constexpr double kParallax_px = 0.05;  // … and would have moved so far, if the camera had: else it is too far
+  static constexpr double kRest_px = 0.3;        // a corner that moved less is at rest
+  static constexpr double kParallax_px = 0.05;   // what rests would have moved so far, if the camera had, or is too far
+  static constexpr double kBeginsShare = 0.9;    // of the weight of all corners that is at rest when a camera stops
+  static constexpr double kMajorityShare = 0.5;  // while it is stationary, so much is enough …
+  static constexpr double kContinuesShare = 0.05;  // … or so much, if it lies behind the rest
 
   struct Group {
     double weight = 0;
@@ -90,12 +90,13 @@ struct StationaryCamera {
     const double all = census.resting.weight + census.moving.weight;
     if (!is_enabled || !(all > 0)) return false;
     const double share = census.resting.weight / all;
-    if (share > (stood ? kMajorityShare : kBeginsShare)) return true;
     const double resting_inverse_m = census.resting.mean_inverse_depth();
     const double moving_inverse_m = census.moving.mean_inverse_depth();
-    const bool is_behind = census.resting.with_depth > 0 && resting_inverse_m < moving_inverse_m;
+    const bool has_depth = census.resting.with_depth > 0;
     const bool would_show = census.moving.mean_moved_px() * resting_inverse_m >= kParallax_px * moving_inverse_m;
-    return stood && share > kContinuesShare && is_behind && would_show;
+    if (has_depth && !would_show) return false;
+    if (share > (stood ? kMajorityShare : kBeginsShare)) return true;
+    return stood && share > kContinuesShare && has_depth && resting_inverse_m < moving_inverse_m;
   }
 };
 

@@ -104,7 +104,8 @@ struct SupportConstraints {
  private:
   static constexpr double kMovableRegionWeight = 0.6;  // a chair seldom moves
   static constexpr double kDepthFloor_m = 0.003;       // what is left when the noise model's is nothing
-  static constexpr double kDepthlessSpread = 0.3;  // standard deviation of an unknown inverse depth, of the median one
+  static constexpr double kDepthlessSpread = 2.0;  // standard deviation of an unknown inverse depth, of the median one:
+                                                   // also what lies beyond the sensor's range has none
   static constexpr float kMostDissimilar = 0.25f;  // an observation that is less alike says nothing of the motion
 
   double depth_sigma_m(double here_m, double there_m) const noexcept {
