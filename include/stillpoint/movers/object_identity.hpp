@@ -92,10 +92,12 @@ class ObjectIdentity {
   }
 
   /// By size and place, is the one a limb of the other? What joins them need not have features, but a limb is smaller
-  /// than its body: a person of whom little is seen is as large as remembered.
+  /// than its body: a person of whom little is seen is as large as remembered. Both are known already: of a body that is
+  /// seen, a limb has less than half of the features, too.
   static bool are_limb_and_body(const TrackedObject& one, const TrackedObject& other, double reach_m = kLimb_m) {
     const TrackedObject &limb = one.members < other.members ? one : other, &body = &limb == &one ? other : one;
-    return is_small(limb, body) && 2 * limb.size_m.norm() < body.size_m.norm() && gap_m(limb, body) < reach_m;
+    const bool is_part = !body.is_seen || has_few(limb, body);
+    return is_part && is_short(limb, body) && gap_m(limb, body) < reach_m;
   }
 
   /// Two objects are one, under the identity of `known`; where it is lost or has fewer features, `part` says where it
@@ -153,10 +155,18 @@ class ObjectIdentity {
     return motion * motion;
   }
 
-  /// By features, a limb has less than half of its body's. One that has gone behind something had few at the end: there
-  /// by length.
+  /// A limb has less than half of its body's features, or of its length: a foot may have as many as a shirt, and a body
+  /// that has gone behind something had few at the end.
   static bool is_small(const TrackedObject& part, const TrackedObject& object) {
-    return object.is_seen ? 2 * part.members < object.members : 2 * part.size_m.norm() < object.size_m.norm();
+    return (object.is_seen && has_few(part, object)) || is_short(part, object);
+  }
+
+  static bool has_few(const TrackedObject& part, const TrackedObject& object) {
+    return 2 * part.members < object.members;
+  }
+
+  static bool is_short(const TrackedObject& part, const TrackedObject& object) {
+    return 2 * part.size_m.norm() < object.size_m.norm();
   }
 
   static void take_identity(const TrackedObject& known, TrackedObject& object) {

@@ -119,9 +119,12 @@ TEST(ObjectIdentity, WhatMayBeALimbWaitsForAStride) {
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
   objects[1].mean_velocity.x() = 2.2;
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s + 0.5));
-  objects[1].members = 60;  // too large for a limb
+  objects[1].members = 60;  // a foot with as many features as the shirt
+  EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
+  objects[1].size_m.y() = 0.9;  // more than half of a person
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
   objects[1].members = 20;
+  EXPECT_TRUE(ObjectIdentity::may_be_limb(objects, 1, kNow_s)) << "of few features, however long";
   objects[0].mean_velocity.setZero();  // what stands has no limbs that swing
   EXPECT_FALSE(ObjectIdentity::may_be_limb(objects, 1, kNow_s));
 }
