@@ -92,8 +92,8 @@ class ObjectIdentity {
   }
 
   /// By size and place, is the one a limb of the other? What joins them need not have features, but a limb is smaller
-  /// than its body: a person of whom little is seen is as large as remembered. Both are known already: of a body that is
-  /// seen, a limb has less than half of the features, too.
+  /// than its body: a person of whom little is seen is as large as remembered. Both are known already: of a body that
+  /// is seen, a limb has less than half of the features, too.
   static bool are_limb_and_body(const TrackedObject& one, const TrackedObject& other, double reach_m = kLimb_m) {
     const TrackedObject &limb = one.members < other.members ? one : other, &body = &limb == &one ? other : one;
     const bool is_part = !body.is_seen || has_few(limb, body);
