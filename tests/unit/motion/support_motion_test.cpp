@@ -360,36 +360,38 @@ Matches person_before_a_wall(std::uint64_t seed) {
   return matches;
 }
 
+/// The first `count` features lie at 1000 m.
+/// @param sigma_m  of that depth; 0: it is beyond the range of the sensor, and they have none
+void put_far_away(std::size_t count, double sigma_m, const Pose& truth, Matches& matches) {
+  constexpr double kFar_m = 1000.0;
+  const auto camera = test::test_camera();
+  const double measured_m = sigma_m > 0 ? kFar_m : 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d point = camera.back_project(matches.reference.undistorted[i], kFar_m);
+    matches.current.undistorted[i] = camera.project(Vector3d(truth * point));
+    matches.reference.set_depth(i, measured_m, sigma_m, camera);
+    matches.current.set_depth(i, measured_m, sigma_m, camera);
+  }
+}
+
 // A wall at 2 to 4 m, and mountains: 7 mm to the side are a pixel there and 0.004 px here. They are at rest and behind.
 TEST(SupportMotion, WhatIsTooFarAwayToShowTheMotionDoesNotStopTheCamera) {
   const Pose truth = test::pose_of(Vector3d::Zero(), {0.007, 0, 0});
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Matches matches = scene_of(truth, seed, 0.05);
-    const auto camera = test::test_camera();
-    for (std::size_t i = 0; i < 60; ++i) {
-      const Vector3d point = camera.back_project(matches.reference.undistorted[i], 1000.0);
-      matches.reference.set_depth(i, 1000.0, 20.0, camera);
-      matches.current.undistorted[i] = camera.project(Vector3d(truth * point));
-      matches.current.set_depth(i, 1000.0, 20.0, camera);
-    }
+    put_far_away(60, 20.0, truth, matches);
     const Motion motion = estimate(matches, kStood);
     EXPECT_FALSE(motion.stationary);
     EXPECT_LT(test::translation_error(motion.current_from_reference, truth), 5e-4);
   }
 }
 
-// Of 200 features 150 lie beyond the range of the depth sensor, at 1000 m; the others move by one to three pixels.
+// Of 200 features 150 lie beyond the range of the sensor; only the others tell how far the camera went.
 TEST(SupportMotion, AMajorityBeyondTheRangeOfTheSensorDoesNotHoldTheCamera) {
   const Pose truth = test::pose_of({0, 0.002, 0}, {0.01, 0, 0});
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Matches matches = scene_of(truth, seed, 0.05);
-    const auto camera = test::test_camera();
-    for (std::size_t i = 0; i < 150; ++i) {
-      const Vector3d point = camera.back_project(matches.reference.undistorted[i], 1000.0);
-      matches.current.undistorted[i] = camera.project(Vector3d(truth * point));
-      matches.reference.set_depth(i, 0.0, 0.0, camera);
-      matches.current.set_depth(i, 0.0, 0.0, camera);
-    }
+    put_far_away(150, 0.0, truth, matches);
     const Motion motion = estimate(matches);
     EXPECT_LT(test::translation_error(motion.current_from_reference, truth), 1e-3) << seed;
   }
