@@ -161,6 +161,12 @@ TEST(ObjectIdentity, ALostLimbIsItsBodys) {
   TrackedObject back = foot;
   back.mean_velocity = Vector3d(-0.8, 0, 0);
   EXPECT_EQ(body_of(lost(back, 0.1), body), ObjectIdentity::kNone);
+  TrackedObject child = foot;
+  child.members = 60;
+  EXPECT_EQ(body_of(lost(child, 0.1), body), ObjectIdentity::kNone) << "more than half of the body's features";
+  child = foot;
+  child.size_m.y() = 0.9;
+  EXPECT_EQ(body_of(lost(child, 0.1), body), ObjectIdentity::kNone) << "more than half of its length";
   TrackedObject rumour = body;
   rumour.is_confirmed = false;
   EXPECT_EQ(body_of(lost(foot, 0.1), rumour), ObjectIdentity::kNone) << "it has no identity to give";
