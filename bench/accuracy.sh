@@ -6,14 +6,10 @@
 # its markers. DATA is a folder with kitchen_walk, kitchen_box and kitchen_static, unless told ../shared/data; without
 # it there are the synthetic scenes alone. FRAMES of each sequence, all unless told. About ten minutes on two free cores.
 set -euo pipefail
-here=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-data=$PWD/../shared/data
-if (($# > 0)); then
-  case $1 in /*) data=$1 ;; *) data=$here/$1 ;; esac
-  shift
-fi
+root=$(dirname "${BASH_SOURCE[0]}")/..
+data=$(realpath -m -- "${1:-$root/../shared/data}")
+shift $(($# > 0))
+cd "$root"
 
 bash bench/build.sh stillpoint_accuracy
 

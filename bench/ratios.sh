@@ -6,14 +6,10 @@
 # FOLDER is a sequence in the layout of the TUM benchmark with camera.yaml and boxes.txt, unless told
 # ../shared/data/kitchen_walk; where there is none, a synthetic scene is measured. Lines that begin with # explain.
 set -euo pipefail
-here=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-folder=$PWD/../shared/data/kitchen_walk
-if (($# > 0)); then
-  case $1 in /*) folder=$1 ;; *) folder=$here/$1 ;; esac
-  shift
-fi
+root=$(dirname "${BASH_SOURCE[0]}")/..
+folder=$(realpath -m -- "${1:-$root/../shared/data/kitchen_walk}")
+shift $(($# > 0))
+cd "$root"
 
 bash bench/build.sh stillpoint_ratios
 

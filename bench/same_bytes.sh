@@ -7,16 +7,12 @@
 # without boxes and PaperPolicies with boxes on kitchen_walk, kitchen_box and kitchen_static of DATA (../shared/data).
 # Prints a line for each file that differs, and a count; exit status 1 if any does. Ten minutes on two cores.
 set -euo pipefail
-here=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+root=$(dirname "${BASH_SOURCE[0]}")/..
+data=$(realpath -m -- "${3:-$root/../shared/data}")
+cd "$root"
 after=$(git rev-parse --verify "${2:-HEAD}^{commit}")
 before=$(git rev-parse --verify "${1:-$after~1}^{commit}")
-data=../shared/data
-if (($# > 2)); then
-  case $3 in /*) data=$3 ;; *) data=$here/$3 ;; esac
-fi
 [[ -d $data/kitchen_walk ]] || { echo "$data/kitchen_walk is missing: DATA is a folder with the kitchen sequences" >&2; exit 1; }
-data=$(cd "$data" && pwd)
 
 bash tests/install_packages.sh g++ cmake ninja-build ccache libopencv-dev libeigen3-dev libyaml-cpp-dev libcli11-dev \
   nlohmann-json3-dev < /dev/null >&2

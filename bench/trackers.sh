@@ -6,14 +6,10 @@
 # and behind nothing. DATA is a folder with kitchen_walk, kitchen_box and kitchen_static, unless told ../shared/data. Each
 # row is the median over --start 0 to 4, in brackets the least and the greatest; prints a table for docs/trackers.md.
 set -euo pipefail
-here=$PWD
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-data=$PWD/../shared/data
-if (($# > 0)); then
-  case $1 in /*) data=$1 ;; *) data=$here/$1 ;; esac
-  shift
-fi
+root=$(dirname "${BASH_SOURCE[0]}")/..
+data=$(realpath -m -- "${1:-$root/../shared/data}")
+shift $(($# > 0))
+cd "$root"
 trackers=("$@")
 ((${#trackers[@]} > 0)) || trackers=(odometry klt orb)
 
