@@ -397,6 +397,35 @@ TEST(SupportMotion, AMajorityBeyondTheRangeOfTheSensorDoesNotHoldTheCamera) {
   }
 }
 
+/// The first `count` features are on a bumper 0.45 m before the camera, in the lowest fifth of the image.
+void fix_to_camera(std::size_t count, Random& random, Matches& matches) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector2d pixel(random.uniform(20, 620), random.uniform(384, 470));
+    for (FrameFeatures* side : {&matches.reference, &matches.current}) {
+      side->undistorted[i] = pixel + 0.05 * Vector2d(random.gaussian(), random.gaussian());
+      side->set_depth(i, 0.45, 0.002, test::test_camera());
+    }
+  }
+}
+
+// The world lies at one distance, so that a shift and a turn about the bumper explain nearly all of it.
+TEST(SupportMotion, WhatIsFixedToTheCameraDoesNotHoldIt) {
+  const Pose truth = test::pose_of(Vector3d::Zero(), {0.02, 0, 0});
+  SceneOptions scene;
+  scene.pixel_noise_px = 0.05;
+  scene.near_m = 2.8;
+  scene.far_m = 3.2;
+  SupportMotion without = policy();
+  without.fixed_to_camera.is_enabled = false;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    Random random(seed);
+    Matches matches = test::make_matches(truth, scene, random);
+    fix_to_camera(60, random, matches);
+    EXPECT_LT(test::translation_error(estimate(matches).current_from_reference, truth), 1e-3) << seed;
+    EXPECT_GT(test::translation_error(estimate(matches, {}, without).current_from_reference, truth), 0.01) << seed;
+  }
+}
+
 TEST(SupportMotion, WhoFillsTheViewOfAStationaryCameraDoesNotTakeItAlong) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const Matches matches = person_before_a_wall(seed);

@@ -26,6 +26,7 @@ struct PointConstraint {
   double weight = 1;                  ///< 0 to 1
   double weight_without_prior = 1;    ///< the same without the static prior
   std::size_t frame = 0;              ///< which older frame
+  std::size_t feature = 0;            ///< which feature of the current one
 
   bool has_depth() const noexcept { return depth_slope > 0; }
 };

@@ -30,10 +30,10 @@ struct SupportConstraints {
   double surface_weight = 0.8;  ///< of a surface cell: depth errors of neighbours are not independent
   float host_cell_px = 24.0f;   ///< of the host's features one per cell of this size speaks, where they support
 
-  /// The matches with the reference frame. `features[k]` is the feature of constraint k.
+  /// The matches with the reference frame.
   template <class Camera>
   span<PointConstraint> from_matches(const Observations& observations, const Camera& camera,
-                                     span<std::uint32_t> features, Workspace& workspace) const {
+                                     Workspace& workspace) const {
     const Matches& matches = observations.matches;
     const span<PointConstraint> points = workspace.take<PointConstraint>(matches.size());
     const double typical_m = typical_depth_m(matches, workspace);
@@ -41,7 +41,6 @@ struct SupportConstraints {
     std::size_t count = 0;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i) || speaks[i] == 0) continue;
-      features[count] = static_cast<std::uint32_t>(i);
       points[count++] = from_match(observations, i, typical_m, camera);
     }
     return points.first(count);
@@ -114,7 +113,7 @@ struct SupportConstraints {
 
   /// Features that move by the log-odds of the last frames lose weight at once: a slow box is found long before its
   /// dynamic prior rises, and would pull the motion along until then. Nor is it taken for parked.
-  void set_weight(PointConstraint& point, const Observations& observations, std::size_t i) const noexcept {
+  void set_feature(PointConstraint& point, const Observations& observations, std::size_t i) const noexcept {
     const Membership& region = observations.regions.of_feature[i];
     const double by_region = region.in_dynamic ? dynamic_region_weight : region.in_movable ? kMovableRegionWeight : 1.0;
     const auto log_odds = static_cast<double>(observations.remembered.log_odds[i]);
@@ -122,6 +121,7 @@ struct SupportConstraints {
     const double stands = moves ? 2.0 / (1.0 + std::exp(log_odds)) : 1.0;  // its probability over that at even odds
     point.weight = by_region * stands * static_cast<double>(observations.remembered.static_prior[i]);
     point.weight_without_prior = moves ? point.weight : by_region;
+    point.feature = i;
   }
 
   PointConstraint at_depth(const Observations& observations, std::size_t i, const Vector2d& pixel, double seen_depth_m,
@@ -136,7 +136,7 @@ struct SupportConstraints {
     point.depth_m = seen_depth_m;
     if (seen_depth_m > 0)
       point.depth_slope = 1.0 / (depth_sigma_m(matches.current.depth_sigma_m[i], seen_sigma_m) + kDepthFloor_m);
-    set_weight(point, observations, i);
+    set_feature(point, observations, i);
     point.frame = frame;
     return point;
   }
@@ -153,7 +153,7 @@ struct SupportConstraints {
     point.inverse_depth_sigma = kDepthlessSpread / typical_m;
     point.pixel = seen.undistorted[i];
     point.pixel_sigma = pixel_sigma;
-    set_weight(point, observations, i);
+    set_feature(point, observations, i);
     return point;
   }
 

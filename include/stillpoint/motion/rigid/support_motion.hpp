@@ -24,6 +24,7 @@
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/kabsch.hpp"
 #include "stillpoint/motion/ransac.hpp"
+#include "stillpoint/motion/rigid/fixed_to_camera.hpp"
 #include "stillpoint/motion/rigid/inertia.hpp"
 #include "stillpoint/motion/rigid/stationary_camera.hpp"
 #include "stillpoint/motion/rigid/support_constraints.hpp"
@@ -48,6 +49,7 @@ class SupportMotion {
   Options options;
   SupportConstraints constraints;      ///< noise and weights of what supports a motion
   StationaryCamera stationary_camera;  ///< when has the camera no motion at all?
+  FixedToCamera fixed_to_camera;       ///< what says nothing of the world?
   Inertia inertia;                     ///< what its velocity knows
 
   // No option in files.
@@ -60,12 +62,12 @@ class SupportMotion {
                   Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const Matches& matches = observations.matches;
-    const span<std::uint32_t> features = workspace.take<std::uint32_t>(matches.size());
-    const span<PointConstraint> points = constraints.from_matches(observations, camera, features, workspace);
+    const span<PointConstraint> points = constraints.from_matches(observations, camera, workspace);
     Motion motion;
     motion.candidates = static_cast<int>(points.size());
     motion.status = Status::too_few_matches;
     if (points.size() < kFewestMatches) return motion;
+    fixed_to_camera.release(points, matches.size(), camera, workspace);
 
     const span<const OlderFrame> frames = matches.past_observations.frames();
     auto problem =
@@ -76,7 +78,7 @@ class SupportMotion {
     motion.pixel_sigma = noise.pixel_sigma;
     motion.depth_noise = noise.depth_scale;
     past = refine(past.reference_from_current, problem, kAgainCutoffs);
-    const Hypothesis sampled = best_sample(matches, features, past, problem, workspace);
+    const Hypothesis sampled = best_sample(matches, past, problem, workspace);
     const bool differ =
         sampled.support > past.support &&
         problem.distance_px(sampled.reference_from_current, past.reference_from_current) > kSameMotion_px;
@@ -88,7 +90,7 @@ class SupportMotion {
             past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& selected = sampled.support > past.support && !is_inverted ? sampled : past;
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
-                        has_no_slow_motion(points, features, matches, camera, workspace);
+                        has_no_slow_motion(points, matches, camera, workspace);
     const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, kAgainCutoffs, problem);
 
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
@@ -117,6 +119,7 @@ class SupportMotion {
     const span<OlderFrame> frames = observations.matches.past_observations.frames();
     const span<PointConstraint> points = constraints.from_past_observations(observations, camera, workspace);
     if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
+    fixed_to_camera.release(points, observations.matches.size(), camera, workspace);
     auto problem = problem_of(points, frames, observations, camera, workspace);
     calibrate(frames[0].reference_from_current, problem, workspace);
     Hypothesis weighted;
@@ -173,13 +176,13 @@ class SupportMotion {
 
   /// Is what is at rest better explained by a motion too small to see in any corner by itself?
   template <class Camera>
-  bool has_no_slow_motion(span<const PointConstraint> points, span<const std::uint32_t> features,
-                          const Matches& matches, const Camera& camera, Workspace& workspace) const {
+  bool has_no_slow_motion(span<const PointConstraint> points, const Matches& matches, const Camera& camera,
+                          Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
     std::size_t count = 0;
-    for (std::size_t k = 0; k < points.size(); ++k)
-      if (stationary_camera.at_rest(matches, features[k])) resting[count++] = points[k];
+    for (const PointConstraint& point : points)
+      if (stationary_camera.at_rest(matches, point.feature)) resting[count++] = point;
     Pose poses[2] = {Pose::Identity(), Pose::Identity()};
     SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
     calibrate(Pose::Identity(), problem, workspace);
@@ -230,14 +233,14 @@ class SupportMotion {
 
   /// The best motion of three points, refined; no support where none explains more points than `past`.
   template <class Camera>
-  Hypothesis best_sample(const Matches& matches, span<const std::uint32_t> features, const Hypothesis& past,
-                         const SupportProblem<Camera>& problem, Workspace& workspace) const {
+  Hypothesis best_sample(const Matches& matches, const Hypothesis& past, const SupportProblem<Camera>& problem,
+                         Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const span<const PointConstraint> points = problem.points();
     const span<std::size_t> metric = workspace.take<std::size_t>(points.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < points.size(); ++k)
-      if (matches.metric(features[k])) metric[count++] = k;
+      if (matches.metric(points[k].feature)) metric[count++] = k;
     if (count < 3) return {};
     double to_beat = problem.point_support(past.reference_from_current);
     // What explains more than the past does has at least its share of inliers.
@@ -245,7 +248,7 @@ class SupportMotion {
     Random random(options.seed);
     std::optional<Pose> best;
     for (std::size_t trial = 0; trial < trials; ++trial) {
-      const std::optional<Pose> pose = sample(matches, points, features, metric.first(count), random);
+      const std::optional<Pose> pose = sample(matches, points, metric.first(count), random);
       if (!pose) continue;
       const double found = problem.point_support(*pose, to_beat);
       if (!(found > to_beat)) continue;
@@ -256,8 +259,8 @@ class SupportMotion {
   }
 
   /// Three metric matches, each accepted with the probability of its weight.
-  std::optional<Pose> sample(const Matches& matches, span<const PointConstraint> points,
-                             span<const std::uint32_t> features, span<const std::size_t> metric, Random& random) const {
+  std::optional<Pose> sample(const Matches& matches, span<const PointConstraint> points, span<const std::size_t> metric,
+                             Random& random) const {
     constexpr int kAttempts = 100;
     std::array<Vector3d, 3> current, reference;
     std::array<std::size_t, 3> chosen{};
@@ -266,8 +269,8 @@ class SupportMotion {
       const std::size_t k = metric[random.index(metric.size())];
       const bool again = std::find(chosen.begin(), chosen.begin() + count, k) != chosen.begin() + count;
       if (again || !(random.uniform() < points[k].weight)) continue;
-      current[count] = matches.current.point[features[k]];
-      reference[count] = matches.reference.point[features[k]];
+      current[count] = matches.current.point[points[k].feature];
+      reference[count] = matches.reference.point[points[k].feature];
       chosen[count++] = k;
     }
     if (count < 3) return std::nullopt;
