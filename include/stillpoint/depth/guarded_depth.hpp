@@ -4,6 +4,7 @@
 
 // Depth that is used only where its neighbours agree.
 
+#include <algorithm>
 #include <cstdint>
 #include <type_traits>
 
@@ -16,10 +17,11 @@
 namespace stillpoint {
 
 /// Depth at the rounded pixel, if its 3 × 3 neighbourhood is one surface: at a hole or a jump there is none, and
-/// nothing is interpolated across an edge.
+/// nothing is interpolated across an edge. In images wider than 960 pixels the neighbourhood is wider by as much: how
+/// far a depth edge lies beside that of the image is an angle.
 struct GuardedDepth {
   // No option in files.
-  int fewest_neighbours = 6;  ///< of the nine pixels that must have a depth
+  int fewest_neighbours = 6;  ///< of nine pixels that must have a depth
   double jump_m = 0.03;       ///< more difference within the neighbourhood is an edge …
   double jump_sigmas = 7.0;   ///< … with this many standard deviations of the depth: the extremes of nine and a slope
 
@@ -29,8 +31,8 @@ struct GuardedDepth {
   double at(const DepthView& depth, const Vector2f& pixel, const Noise& noise = {}) const {
     // Also false for NaN, and for what is too far away for an int.
     if (!(depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.5f)) return 0.0;
-    const int u = rounded(pixel.x()), v = rounded(pixel.y());
-    if (u < 1 || v < 1 || u + 1 >= depth.image.width || v + 1 >= depth.image.height) return 0.0;
+    const int u = rounded(pixel.x()), v = rounded(pixel.y()), r = reach_px(depth.image);
+    if (u < r || v < r || u + r >= depth.image.width || v + r >= depth.image.height) return 0.0;
     return depth.image.format == PixelFormat::depth16 ? of_surface<std::uint16_t>(depth, u, v, noise)
                                                       : of_surface<float>(depth, u, v, noise);
   }
@@ -42,23 +44,31 @@ struct GuardedDepth {
   }
 
  private:
+  static constexpr int kUsualWidth_px = 640;
+
+  /// From the centre of the neighbourhood to its border.
+  static int reach_px(const ImageView& depth) noexcept {
+    return std::max(1, (depth.width + kUsualWidth_px / 2) / kUsualWidth_px);
+  }
+
   /// Compared in the units of the image: metres of the extremes alone.
   template <class Depth, class Noise>
   double of_surface(const DepthView& depth, int u, int v, const Noise& noise) const {
     const Depth centre = depth.image.row<Depth>(v)[u];
     if (!DepthView::is_depth(centre)) return 0.0;
+    const int r = reach_px(depth.image);
     int neighbours = 0;
     Depth nearest = centre, farthest = centre;
-    for (int j = -1; j <= 1; ++j) {
+    for (int j = -r; j <= r; ++j) {
       const Depth* const row = depth.image.row<Depth>(v + j) + u;
-      for (int i = -1; i <= 1; ++i) {
+      for (int i = -r; i <= r; ++i) {
         const bool counts = DepthView::is_depth(row[i]);
         neighbours += counts;
         nearest = counts && row[i] < nearest ? row[i] : nearest;
         farthest = counts && row[i] > farthest ? row[i] : farthest;
       }
     }
-    if (neighbours < fewest_neighbours) return 0.0;
+    if (9 * neighbours < fewest_neighbours * (2 * r + 1) * (2 * r + 1)) return 0.0;
     const auto centre_m = static_cast<double>(depth.metres(centre));
     const double difference_m =
         static_cast<double>(depth.metres(farthest)) - static_cast<double>(depth.metres(nearest));

@@ -77,6 +77,13 @@ class CoarseAlignment {
                                           : cost_at(reference_from_current, reference_[1], camera, [](auto&&...) {});
   }
 
+  /// Levels of a pyramid that has the small images of a frame: at least four, for what is no wider than 960 px.
+  static std::size_t pyramid_levels(int width_px) noexcept {
+    std::size_t levels = 4;
+    while ((width_px >> (levels - 1)) > kWidest_px) ++levels;
+    return levels;
+  }
+
   StaticWeights reference_weights;  ///< how much of the reference frame stood still
 
   /// Median depth of the current frame, metres.
@@ -89,7 +96,7 @@ class CoarseAlignment {
   }
 
  private:
-  static constexpr int kWidest_px = 96;        // of the finer image: 80 x 60 of 640 x 480
+  static constexpr int kWidest_px = 120;       // of the finer image: 80 x 60 of 640 x 480
   static constexpr float kBlur_px = 2.5f;      // standard deviation in the coarser one, as Klein and Murray's
   static constexpr int kContrastReach_px = 8;  // of the finer image
   static constexpr float kGuessWeight = 0.25f;

@@ -103,7 +103,6 @@ class CornerTracker {
  private:
   // Least eigenvalue of a corner, squared gray levels over 5 × 5 pixels of the half-sized image.
   static constexpr float kWeakestCorner = 600.0f;
-  static constexpr std::size_t kPyramidLevels = 4;  // with a reach of 3 px on each: 45 px between two frames
   static constexpr float kTooVague = 0.5f;  // on a coarse level a fit this bad does not move the start of the next
   static constexpr float kCoarsePrecision_px = 0.2f;  // of a level that only says where the next one begins
   static constexpr int kFewestPixels = 25;            // of a patch's 64 that must lie on the corner's surface
@@ -136,10 +135,10 @@ class CornerTracker {
     if (current_time_s_ == current.timestamp_s) return;
     is_aligned_ = false;
     if (!(reference_time_s_ == reference.timestamp_s)) {
-      reference_.build(reference.gray, kPyramidLevels);
+      reference_.build(reference.gray, CoarseAlignment::pyramid_levels(reference.gray.width));
       coarse_.add_frame(reference_);
     }
-    current_.build(current.gray, kPyramidLevels);
+    current_.build(current.gray, CoarseAlignment::pyramid_levels(current.gray.width));
     coarse_.add_frame(current_);
     find_corners(scale);
     current_time_s_ = current.timestamp_s;

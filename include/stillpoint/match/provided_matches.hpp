@@ -81,7 +81,7 @@ class ProvidedMatches {
                         const Camera& camera, const Noise& noise, Matches& matches, Workspace& workspace) {
     if (history.capacity() < 2) return;
     matches.host_supports = true;
-    tracks_.push(matches, history.capacity(), options.same_point_px, workspace);
+    tracks_.push(matches, history, options.same_point_px, workspace);
     choose_older_frames(older, surfaces, space, history, current, filter_from_expected, camera, noise, matches,
                         workspace);
     find_tracks_beside_occluders(current, camera, noise, matches);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stillpoint/core/extend.hpp"
+#include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
@@ -22,8 +23,9 @@ class StaticWeights {
   void assign(const Observations& observations, span<const Label> labels, int image_width, int image_height) {
     const Matches& matches = observations.matches;
     const Remembered& remembered = observations.remembered;
-    columns_ = std::max(1, (image_width + kCell_px - 1) / kCell_px);
-    rows_ = std::max(1, (image_height + kCell_px - 1) / kCell_px);
+    cell_px_ = std::max(kCell_px, rounded(matches.pixel_scale * static_cast<float>(kCell_px)));
+    columns_ = std::max(1, (image_width + cell_px_ - 1) / cell_px_);
+    rows_ = std::max(1, (image_height + cell_px_ - 1) / cell_px_);
     refill(sum_, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
     for (std::size_t i = 0; i < matches.size(); ++i)
       add(matches.current.pixel[i], labels[i].keep ? remembered.static_prior[i] : 0.0f, 1.0f);
@@ -41,7 +43,7 @@ class StaticWeights {
   void clear() noexcept { columns_ = rows_ = 0; }
 
  private:
-  static constexpr int kCell_px = 24;
+  static constexpr int kCell_px = 24;          // at a focal length of 525 px, as corners and surfaces are spread
   static constexpr float kSurfaceVote = 0.5f;  // where there are features, they know better
 
   struct Cell {
@@ -50,8 +52,8 @@ class StaticWeights {
 
   const Cell* find(const Vector2f& pixel) const noexcept {
     if (!(pixel.x() >= 0 && pixel.y() >= 0)) return nullptr;
-    const int u = static_cast<int>(std::min(pixel.x(), 1e6f)) / kCell_px;
-    const int v = static_cast<int>(std::min(pixel.y(), 1e6f)) / kCell_px;
+    const int u = static_cast<int>(std::min(pixel.x(), 1e6f)) / cell_px_;
+    const int v = static_cast<int>(std::min(pixel.y(), 1e6f)) / cell_px_;
     if (u >= columns_ || v >= rows_) return nullptr;
     return &sum_[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(u)];
   }
@@ -64,7 +66,7 @@ class StaticWeights {
   }
 
   std::vector<Cell> sum_;
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0, cell_px_ = kCell_px;
 };
 
 }  // namespace stillpoint

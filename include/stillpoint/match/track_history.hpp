@@ -15,6 +15,7 @@
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
+#include "stillpoint/pipeline/frame_history.hpp"
 
 namespace stillpoint {
 
@@ -22,10 +23,10 @@ namespace stillpoint {
 /// is reused: no allocation once the fullest frame has been seen.
 class TrackHistory {
  public:
-  /// Past frames in which feature i was seen without a gap: ages 1 to length(i). 0: it is new.
+  /// Past frames of `FrameHistory` in which feature i was seen without a gap: ages 1 to length(i). 0: it is new.
   std::size_t length(std::size_t i) const noexcept { return newest_.length[i]; }
 
-  /// The undistorted pixel of feature i in the frame `age` frames ago, 1 ≤ age ≤ length(i).
+  /// The undistorted pixel of feature i in `FrameHistory::back(age)`, 1 ≤ age ≤ length(i).
   const Vector2f& pixel(std::size_t i, std::size_t age) const noexcept {
     return newest_.tracks[i * capacity_ + age - 1];
   }
@@ -33,8 +34,9 @@ class TrackHistory {
   /// Takes the matches of the next frame with the last one. A feature carries on the track of the last frame's feature
   /// that is nearest to its reference pixel; its track begins there where none lies within `same_point_px`, or where
   /// the depths are of two surfaces.
-  /// @param capacity  most past frames that a track reaches back
-  void push(const Matches& matches, std::size_t capacity, float same_point_px, Workspace& workspace) {
+  /// @param history  of past frames, the last of which is the reference
+  void push(const Matches& matches, const FrameHistory& history, float same_point_px, Workspace& workspace) {
+    const std::size_t capacity = history.capacity(), skipped = history.skips_second_last() ? 1 : 0;
     const Workspace::Scope scope(workspace);
     if (capacity != capacity_) reset();
     capacity_ = capacity;
@@ -52,8 +54,9 @@ class TrackHistory {
       next_.length[i] = 1;
       const std::size_t parent = nearest(last, matches.reference, i, same_point_px);
       if (parent == PixelGrid::kNone) continue;
-      const std::size_t inherited = std::min(newest_.length[parent], capacity - 1);
-      const Vector2f* const older = newest_.tracks.data() + parent * capacity;
+      if (newest_.length[parent] < skipped) continue;
+      const std::size_t inherited = std::min(newest_.length[parent] - skipped, capacity - 1);
+      const Vector2f* const older = newest_.tracks.data() + parent * capacity + skipped;
       const Vector2f beside = track[0] - newest_.undistorted[parent];
       for (std::size_t k = 0; k < inherited; ++k) track[k + 1] = older[k] + beside;
       next_.length[i] += inherited;

@@ -195,7 +195,7 @@ class EvidenceMemory {
   /// Of what the map called dynamic near a place, on its surface.
   float evidence_of_map(const Vector2f& pixel, double depth_m, double tolerance_m, float neighbour_px) const noexcept {
     for (const RememberedPoint& point : dynamic_) {
-      if ((point.pixel - pixel).squaredNorm() > neighbour_px * neighbour_px) continue;
+      if (!((point.pixel - pixel).squaredNorm() <= neighbour_px * neighbour_px)) continue;  // nor where one is NaN
       const bool has_depths = depth_m > 0 && point.depth_m > 0;
       if (!has_depths || std::abs(static_cast<double>(point.depth_m) - depth_m) < tolerance_m) return kMapEvidence;
     }

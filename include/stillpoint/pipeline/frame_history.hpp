@@ -31,7 +31,8 @@ struct PastFrame {
   }
 };
 
-/// A ring of the last frames, newest first. Slots are reused: no allocation once it is full.
+/// A ring of past frames, newest first: the last one, and before it frames at least 1/40 s apart, so that at high rates
+/// it reaches as far back as at 30 Hz. Slots are reused: no allocation once it is full.
 class FrameHistory {
  public:
   explicit FrameHistory(std::size_t capacity = 1) : ring_(std::max<std::size_t>(capacity, 1)) {}
@@ -47,7 +48,7 @@ class FrameHistory {
   /// Where the past seconds saw space.
   const SpaceHistory& space() const noexcept { return space_; }
 
-  /// The frame `age` frames before the current one: 1 is the last, size() the oldest.
+  /// 1 is the last frame, size() the oldest.
   const PastFrame& back(std::size_t age) const noexcept {
     return ring_[age <= head_ ? head_ - age : head_ + ring_.size() - age];
   }
@@ -58,7 +59,11 @@ class FrameHistory {
                    : orthonormalized(back(1).filter_from_camera * inverted(motion.current_from_reference));
   }
 
-  /// Copies a frame in; the oldest is overwritten when the ring is full. Where its motion is not known, the older ones
+  /// Whether the frame before the last is none of these: the last one took its place.
+  bool skips_second_last() const noexcept { return skips_second_last_; }
+
+  /// Copies a frame in; the oldest is overwritten when the ring is full, or the last one, if it is too close to the one
+  /// before it. Where its motion is not known, the older ones
   /// are forgotten: their poses are of another world now.
   void push(const FrameView& frame, const Motion& motion) {
     if (!motion.usable()) clear();
@@ -67,6 +72,11 @@ class FrameHistory {
 
   /// The same, with a pose.
   void push(const FrameView& frame, const Pose& filter_from_camera) {
+    skips_second_last_ = size_ > 1 && back(1).timestamp_s - back(2).timestamp_s < kClosest_s;
+    if (skips_second_last_) {
+      head_ = (head_ + ring_.size() - 1) % ring_.size();
+      --size_;
+    }
     PastFrame& slot = ring_[head_];
     slot.gray.assign(frame.gray);
     slot.depth.assign(frame.depth.image);
@@ -79,9 +89,12 @@ class FrameHistory {
   }
 
  private:
+  static constexpr double kClosest_s = 1.0 / 40.0;  // between the frames of a camera of 30 Hz, whose stamps jitter
+
   std::vector<PastFrame> ring_;
   std::size_t head_ = 0;
   std::size_t size_ = 0;
+  bool skips_second_last_ = false;
   SpaceHistory space_;
 };
 

@@ -119,9 +119,9 @@ class CarriedDetection {
   }
 
   /// A feature of the object: in the box, and where the object's depth is known, of that depth.
-  bool holds(const FeatureStep& step) const noexcept {
+  bool holds(const FeatureStep& step, const ImageMotion& image) const noexcept {
     return detection.holds(step.to, static_cast<double>(step.to_depth_m)) &&
-           (!has_depth_range() || step.to_depth_m > 0);
+           (!has_depth_range() || !image.has_depths || step.to_depth_m > 0);
   }
 
   /// Medians: limbs swing about the trunk, and some features are not the object's. What comes nearer by a share of its
@@ -133,7 +133,7 @@ class CarriedDetection {
     const span<float> nearing = workspace.take<float>(image.steps.size());
     std::size_t count = 0, metric = 0;
     for (const FeatureStep& step : image.steps) {
-      if (!holds(step)) continue;
+      if (!holds(step, image)) continue;
       x[count] = step.to.x() - step.from.x();
       y[count++] = step.to.y() - step.from.y();
       if (step.from_depth_m > 0 && step.to_depth_m > 0) nearing[metric++] = step.from_depth_m / step.to_depth_m;

@@ -32,6 +32,7 @@ class ImageMotion {
   double elapsed_s = 0.0;  ///< since the frame before; 0 where there is none
   int width = 0, height = 0;
   std::vector<FeatureStep> steps;  ///< empty where nobody has told
+  bool has_depths = false;         ///< of any step: without, the method looks at no depth
 
   /// Begins with the frame alone.
   void begin(const FrameView& frame, double previous_timestamp_s) {
@@ -40,7 +41,7 @@ class ImageMotion {
     width = frame.image().width;
     height = frame.image().height;
     steps.clear();
-    knows_camera_ = false;
+    has_depths = knows_camera_ = false;
     copy_coarsely(frame.depth.image.empty() ? DepthView() : frame.depth);
   }
 
@@ -55,15 +56,17 @@ class ImageMotion {
   DepthScale to_depth() const { return {ImageView(nullptr, width, height, 0, PixelFormat::gray8), depth_.view()}; }
 
   void set_steps(const Matches& matches) {
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      if (matches.matched(i))
-        steps.push_back({matches.reference.pixel[i], matches.current.pixel[i],
-                         static_cast<float>(matches.reference.depth_m[i]),
-                         static_cast<float>(matches.current.depth_m[i])});
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (!matches.matched(i)) continue;
+      steps.push_back({matches.reference.pixel[i], matches.current.pixel[i],
+                       static_cast<float>(matches.reference.depth_m[i]),
+                       static_cast<float>(matches.current.depth_m[i])});
+      has_depths |= matches.current.has_depth(i);
+    }
   }
 
-  /// Keeps K R K⁻¹ and K t, which say where a static point goes. The lens's distortion is left out: the few pixels
-  /// between two frames hardly differ by it.
+  /// Keeps K R K⁻¹ and K t, which say where a static point goes; of a motion without a scale the rotation alone. The
+  /// lens's distortion is left out: the few pixels between two frames hardly differ by it.
   template <class Camera>
   void set_camera_motion(const Motion& motion, const Camera& camera) {
     const Vector2d centre = camera.project(Vector3d(0, 0, 1));
@@ -73,7 +76,7 @@ class ImageMotion {
     Matrix3d k_inverse;
     k_inverse << 1 / focal.x(), 0, -centre.x() / focal.x(), 0, 1 / focal.y(), -centre.y() / focal.y(), 0, 0, 1;
     turn_ = k * rotation_of(motion.current_from_reference) * k_inverse;
-    shift_ = k * translation_of(motion.current_from_reference);
+    shift_ = motion.metric ? Vector3d(k * translation_of(motion.current_from_reference)) : Vector3d(Vector3d::Zero());
     knows_camera_ = true;
   }
   bool knows_camera() const noexcept { return knows_camera_; }

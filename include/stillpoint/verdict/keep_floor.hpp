@@ -37,6 +37,7 @@ class KeepFloor {
     const span<std::uint32_t> dropped = workspace.take<std::uint32_t>(labels.size());
     std::size_t kept = 0, count = 0, cells = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (!(image.border_distance_px(pixels[i].x(), pixels[i].y()) >= 0.0f)) continue;  // of no use to a tracker
       if (labels[i].keep)
         ++kept, cells += kept_in_cell[cell(pixels[i], image)]++ == 0;
       else

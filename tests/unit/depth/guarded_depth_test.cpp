@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/pipeline/policy_traits.hpp"
@@ -44,6 +45,26 @@ TEST(GuardedDepth, IsTheDepthOfTheRoundedPixelOnASurface) {
   EXPECT_EQ(lookup.at(wall.view(), {3, 2}), static_cast<double>(2.03f)) << "nothing is averaged";
   EXPECT_EQ(lookup.at(wall.view(), {3.4f, 1.6f}), static_cast<double>(2.03f));
   EXPECT_EQ(lookup.at(wall.view(), {2.4f, 2.0f}), 2.0);
+}
+
+// 5 × 5 pixels from a width of 960 on: two pixels away is an edge there, and 16 of 25 holes are too many.
+TEST(GuardedDepth, TheNeighbourhoodGrowsWithTheImage) {
+  const GuardedDepth lookup = guarded();
+  for (const int width : {959, 960}) {
+    std::vector<float> metres(static_cast<std::size_t>(width) * 7, 2.0f);
+    const DepthView wall(
+        ImageView(metres.data(), width, 7, static_cast<std::size_t>(width) * sizeof(float), PixelFormat::depth32f));
+    const bool is_wide = width == 960;
+    EXPECT_EQ(lookup.at(wall, {20, 3}), 2.0);
+    EXPECT_EQ(lookup.at(wall, {1, 3}), is_wide ? 0.0 : 2.0) << "the border";
+    metres[static_cast<std::size_t>(3 * width + 22)] = 3.0f;
+    EXPECT_EQ(lookup.at(wall, {20, 3}), is_wide ? 0.0 : 2.0);
+    for (const int v : {1, 5})
+      for (int u = 48; u <= 52; ++u) metres[static_cast<std::size_t>(v * width + u)] = 0.0f;
+    EXPECT_EQ(lookup.at(wall, {50, 3}), is_wide ? 0.0 : 2.0) << "15 of 25";
+    metres[static_cast<std::size_t>(width + 48)] = metres[static_cast<std::size_t>(width + 49)] = 2.0f;
+    EXPECT_EQ(lookup.at(wall, {50, 3}), 2.0) << "17 of 25, as 6 of 9";
+  }
 }
 
 TEST(GuardedDepth, ThereIsNoneAtAJump) {
@@ -114,15 +135,15 @@ TEST(GuardedDepth, ThereIsNoneAtTheBorderAndOutside) {
 
 // 2³² + 512 is 512 in 32 bits: too far away must not come back inside.
 TEST(GuardedDepth, WhatIsTooFarAwayForAnIntegerIsOutside) {
-  static const std::array<float, 3 * 1024> wall = [] {
-    std::array<float, 3 * 1024> metres{};
+  static const std::array<float, 5 * 1024> wall = [] {
+    std::array<float, 5 * 1024> metres{};
     metres.fill(2.0f);
     return metres;
   }();
-  const DepthView view(ImageView(wall.data(), 1024, 3, 1024 * sizeof(float), PixelFormat::depth32f));
+  const DepthView view(ImageView(wall.data(), 1024, 5, 1024 * sizeof(float), PixelFormat::depth32f));
   const GuardedDepth lookup = guarded();
-  EXPECT_EQ(lookup.at(view, {512.0f, 1.0f}), 2.0);
-  EXPECT_EQ(lookup.at(view, {4294967808.0f, 1.0f}), 0.0);
+  EXPECT_EQ(lookup.at(view, {512.0f, 2.0f}), 2.0);
+  EXPECT_EQ(lookup.at(view, {4294967808.0f, 2.0f}), 0.0);
 }
 
 TEST(GuardedDepth, SmallAndEmptyImagesHaveNone) {

@@ -92,6 +92,13 @@ class CoarseAlignmentTest : public testing::Test {
   CoarseAlignment alignment_;
 };
 
+// 1280 / 16 = 80 px wide, as 640 / 8; 1920 / 16 and 3840 / 32 are 120.
+TEST(CoarseAlignment, ItsImagesAreAsSmallForWideFrames) {
+  for (const auto& [width_px, levels] : {std::pair(160, 4), std::pair(640, 4), std::pair(960, 4), std::pair(1280, 5),
+                                         std::pair(1920, 5), std::pair(3840, 6)})
+    EXPECT_EQ(CoarseAlignment::pyramid_levels(width_px), static_cast<std::size_t>(levels)) << width_px;
+}
+
 // Corners reach 45 px from where they begin. Frames of a fifth of a second of a fast turn are farther apart than that;
 // the alignment brings every pair within reach, and most much nearer.
 TEST_F(CoarseAlignmentTest, BringsFramesFarApartWithinReachOfTheCorners) {

@@ -57,11 +57,13 @@ void expect_near(const std::vector<double>& found, const std::vector<double>& ex
 }
 
 // At 1.9 m 0.19 s are wanted: one frame of 5 Hz, but three are looked at within a second; six of 30 Hz (0.2 s; five are
-// 0.167), twelve of 60 Hz (0.2 s; eleven are 0.183). Between: √6 = 2.4 and √12 = 3.5.
+// 0.167). Between: √6 = 2.4. Of 60 Hz every second frame before the last is kept, of 90 Hz every third: the seventh of
+// those kept is 0.2 s old, and the one between is the third: √7 = 2.6.
 TEST(PastReprojection, AgesFollowTheFrameRate) {
   expect_near(ages(5, 16, 1.9), {1 / 5.0, 2 / 5.0, 3 / 5.0});
   expect_near(ages(30, 16, 1.9), {1 / 30.0, 2 / 30.0, 6 / 30.0});
-  expect_near(ages(60, 16, 1.9), {1 / 60.0, 3 / 60.0, 12 / 60.0});
+  expect_near(ages(60, 16, 1.9), {1 / 60.0, 4 / 60.0, 12 / 60.0});
+  expect_near(ages(90, 45, 1.9), {1 / 90.0, 6 / 90.0, 18 / 90.0});
 }
 
 // 0.09 s at 0.9 m: three frames of 30 Hz; at 3.8 m 0.38 s: twelve.

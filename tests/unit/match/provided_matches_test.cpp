@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -109,7 +110,7 @@ class ChainedTracksTest : public testing::Test {
 
   /// The next frame: the host's features, and where it says that they were.
   const Matches& next(const std::vector<Vector2f>& pixels, const std::vector<Vector2f>& before) {
-    time_s_ += 1 / 30.0;
+    time_s_ += 1 / rate_hz_;
     matches_.begin(pixels);
     matches_.pixel_scale = pixel_scale(camera_);
     matcher_.reference_pixels = before;
@@ -138,7 +139,7 @@ class ChainedTracksTest : public testing::Test {
   const Camera camera_{150, 150, 79.5, 59.5, kWidth, kHeight};
   cv::Mat gray_ = cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(100));
   cv::Mat depth_ = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(2.0));
-  double time_s_ = 0;
+  double time_s_ = 0, rate_hz_ = 30;
   FrameHistory history_{16};
   Matches matches_;
   Workspace workspace_;
@@ -155,6 +156,21 @@ TEST_F(ChainedTracksTest, ATrackSaysWhereAFeatureWasInOlderFrames) {
   ASSERT_EQ(found.size(), 3u);
   EXPECT_GT(found.rbegin()->first, 3u);
   for (const auto& [age, column] : found) EXPECT_NEAR(column, u - 3.0f * static_cast<float>(age), 1e-3) << age;
+}
+
+// Of 90 frames a second the history keeps every third, and the last one.
+TEST_F(ChainedTracksTest, ATrackSkipsTheFramesThatTheHistorySkips) {
+  rate_hz_ = 90;
+  float u = 30;
+  next({{u, 60}}, {});
+  for (int f = 1; f <= 60; ++f, ++u) next({{u + 1, 60}}, {{u, 60}});
+  double oldest_s = 0;
+  for (const OlderFrame& older : matches_.past_observations.frames()) {
+    oldest_s = std::max(oldest_s, older.elapsed_s);
+    EXPECT_NEAR(older.of_feature[0].found.x(), u - static_cast<float>(rate_hz_ * older.elapsed_s), 1e-3) << older.age;
+  }
+  EXPECT_EQ(matches_.past_observations.frames().size(), 3u);
+  EXPECT_GT(oldest_s, 16 / rate_hz_);
 }
 
 TEST_F(ChainedTracksTest, AFeatureGoesOnFromTheNearestOneOfTheLastFrame) {

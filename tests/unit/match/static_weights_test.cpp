@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <tuple>
 #include <vector>
 
 #include "unit/observations_of.hpp"
@@ -25,6 +26,21 @@ TEST(StaticWeights, IsTheShareOfWhatStoodStill) {
   EXPECT_FLOAT_EQ(weights.at({12, 12}), 0.5f);
   EXPECT_FLOAT_EQ(weights.at({40, 20}), 1.0f);
   EXPECT_FLOAT_EQ(weights.at({60, 20}), 1.0f) << "nothing is known there";
+}
+
+// Twice the focal length: cells of 48 px, as corners are twice as far apart. Half the focal length: as they are.
+TEST(StaticWeights, CellsGrowWithTheFocalLength) {
+  Matches matches;
+  matches.begin(std::vector<Vector2f>{{3, 3}});
+  std::vector<Label> labels(1);
+  labels[0].keep = false;
+  StaticWeights weights;
+  for (const auto& [scale, inside, outside] : {std::tuple(2.0f, 47.0f, 49.0f), std::tuple(0.5f, 23.0f, 25.0f)}) {
+    matches.pixel_scale = scale;
+    weights.assign(test::observations_of(matches), labels, 192, 96);
+    EXPECT_EQ(weights.at({inside, 3}), 0.0f);
+    EXPECT_EQ(weights.at({outside, 3}), 1.0f);
+  }
 }
 
 // (1 feature · prior 1 + 1/2 of a surface · prior 0.05) / (1 + 1/2). Alone, the surface's prior is all that is known.

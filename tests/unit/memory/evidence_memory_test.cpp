@@ -120,6 +120,15 @@ TEST_F(EvidenceMemoryTest, AHostsMapIsEvidence) {
   EXPECT_TRUE(labels_[0].keep);
 }
 
+TEST_F(EvidenceMemoryTest, WhatTheMapSaysOfAKeypointThatIsNoneIsSaidOfNoOther) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Feature> features = {{Vector2f(nan, nan)}, {Vector2f(60, 50)}};
+  frame(features, {-3, -3});
+  memory_.expect_dynamic(std::vector<std::uint8_t>{1, 0});
+  frame(features, {-3, -3});
+  EXPECT_TRUE(labels_[1].keep);
+}
+
 TEST_F(EvidenceMemoryTest, SaysWhatDecided) {
   frame({{Vector2f(50, 50)}, {Vector2f(150, 50)}}, {3, -3});
   EXPECT_EQ(labels_[0].reason, Reason::inconsistent);

@@ -38,6 +38,17 @@ TEST(Inertia, GoesAsFarAsItsShareOfTheInformation) {
   EXPECT_TRUE(sum.isApprox(information(64.0, 4.0), 1e-9));
 }
 
+// By hand at 0.03 s: √12 m/s² · 0.03² s² gives an information of 12 / (12 · 0.03⁴) = 1 / 0.03⁴ along an axis. A
+// hundredth of that time is a hundredth of the way, no less: 1 / (0.03² · 0.0003²).
+TEST(Inertia, AVelocityIsNotKnownBetterBecauseTheNextFrameIsNear) {
+  for (const double elapsed_s : {0.03, 0.0003}) {
+    Matrix6d sum = information(0.0, 0.0);
+    by_hand().fuse(Pose::Identity(), sum, predicted(Pose::Identity(), elapsed_s));
+    EXPECT_NEAR(sum(3, 3) * 9e-4 * elapsed_s * elapsed_s, 1.0, 1e-9);
+    EXPECT_NEAR(sum(0, 0) * 9e-4 * elapsed_s * elapsed_s, 16.0, 1e-9);
+  }
+}
+
 // What the constraints hold stays; what they leave open goes all the way, from any pose.
 TEST(Inertia, FillsInWhatTheConstraintsLeaveOpen) {
   const Pose found = test::pose_of({0.3, -0.2, 0.1}, {1.0, 2.0, -0.5});

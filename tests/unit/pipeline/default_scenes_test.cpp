@@ -202,6 +202,18 @@ TEST(DefaultScenes, WhoFillsTheViewOfARealisticSensorIsFound) {
   EXPECT_LT(outcome.worst_position_m, 0.005);
 }
 
+// At 90 Hz a velocity that is believed because the next frame is near drags the motion behind the camera.
+TEST(DefaultScenes, AHighFrameRateDoesNoHarm) {
+  synthetic::SceneOptions options = small(120);
+  options.frame_rate_hz = 90;
+  const synthetic::Scene scene = synthetic::static_room(options);
+  FrameFilter<> filter(scene.camera);
+  const Outcome outcome = run(scene, filter);
+  expect_all_judged(outcome);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.01);
+  EXPECT_LE(outcome.worst_position_m, 0.005);
+}
+
 /// The robot's own bumper in the lowest fifth of the image, 0.45 m before the camera.
 void bumper(SyntheticFrame& frame) {
   constexpr int kPatch_px = 4;

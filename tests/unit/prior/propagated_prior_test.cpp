@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -494,6 +495,29 @@ TEST_F(PropagatedPriorTest, WithoutDepthTheFeaturesInTheBoxCarryIt) {
     if (f > 0) box.x += 3;
     expect_box(only_thing().detection.box, box);
     EXPECT_FALSE(only_thing().has_depth_range());
+  }
+}
+
+// A method without depth over images with depth: no feature has one, and the motion is a direction of length 1. Taken
+// for a metre, at 1.5 m, it would be 67 px a frame.
+TEST_F(PropagatedPriorTest, AMethodWithoutDepthCarriesBoxesOfImagesWithDepth) {
+  Regions regions;
+  Box box = {100, 80, 40, 60};
+  prior_.detections = {seen(box)};
+  Motion motion;
+  motion.status = Status::ok;
+  motion.metric = false;
+  motion.current_from_reference.translation() = Vector3d(1, 0, 0);
+  for (int f = 0; f < 6; ++f) {
+    const cv::Mat gray(240, 320, CV_8UC1, cv::Scalar(0)), depth(240, 320, CV_32FC1, cv::Scalar(kObject_m));
+    prior_.regions(FrameView(gray, DepthView::tum(depth), 0.1 * f), regions);
+    motion.reference_timestamp_s = 0.1 * (f - 1);
+    Matches matches = features({{3, 0}, {3, 0}});
+    for (FrameFeatures* side : {&matches.reference, &matches.current})
+      std::fill(side->depth_m.begin(), side->depth_m.end(), 0.0);
+    prior_.observe(test::observations_of(matches), motion, camera_);
+    if (f > 0) box.x += 3;
+    expect_box(only_thing().detection.box, box);
   }
 }
 

@@ -54,6 +54,20 @@ class KeepFloorTest : public testing::Test {
   std::uint8_t pixel_ = 0;
 };
 
+// A host whose arrays have a fixed length fills them up with NaN.
+TEST_F(KeepFloorTest, WhatIsNotInTheImageIsNoFeatureThatIsLeft) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Vector2f& nowhere : {Vector2f(nan, nan), Vector2f(-1, 5), Vector2f(200, 5)}) {
+    add(nowhere, true);
+    add(nowhere, false, -1.0f);
+  }
+  add({30, 5}, false, 1.0f);
+  add({50, 5}, false, 2.0f);
+  floor_.options.fewest_features = 1;
+  EXPECT_EQ(apply(), 1u);
+  EXPECT_EQ(rescued(), std::set<std::size_t>{6});
+}
+
 TEST_F(KeepFloorTest, DoesNothingWhereEnoughIsKept) {
   for (int i = 0; i < 3; ++i) add({5, 5}, true);
   for (int i = 0; i < 5; ++i) add({70, 50}, false, 1.0f);
@@ -131,14 +145,14 @@ TEST_F(KeepFloorTest, ThereMayBeFewerThanWanted) {
   EXPECT_EQ(rescued().size(), 2u);
 }
 
-TEST_F(KeepFloorTest, PixelsThatAreNoneAreAnsweredToo) {
+TEST_F(KeepFloorTest, PixelsThatAreNoneAreNotRescued) {
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   add({kNaN, kNaN}, false, 1.0f);
   add({1e30f, -1e30f}, false, 2.0f);
   add({std::numeric_limits<float>::infinity(), 5}, true);
   floor_.options.fewest_features = 3;
   floor_.options.fewest_cells = 3;
-  EXPECT_EQ(apply(), 2u);
+  EXPECT_EQ(apply(), 0u);
 }
 
 // Over random cases: exactly as many as are needed, and no rescued feature more dynamic than one that was left out
@@ -152,7 +166,7 @@ TEST_F(KeepFloorTest, KeepsNoMoreThanNeeded) {
     for (std::size_t i = 0, count = random.index(60); i < count; ++i) {
       const bool keep = random.uniform() < 0.3;
       kept += keep;
-      add({static_cast<float>(random.uniform(0, 80)), static_cast<float>(random.uniform(0, 60))}, keep,
+      add({static_cast<float>(random.uniform(0, 79)), static_cast<float>(random.uniform(0, 59))}, keep,
           static_cast<float>(random.uniform(0, 6)));
     }
     floor_.options.fewest_features = random.index(40);

@@ -48,6 +48,7 @@ struct Inertia {
 
  private:
   static constexpr double kDegreesOfFreedom = 10.0;  // of Student's t: jolts are rare and then large
+  static constexpr double kVelocityAge_s = 0.03;     // at 30 Hz, where both accelerations were measured
 
   /// Of Student's t, for what lies between the two: e² = xᵀ (found⁻¹ + velocity⁻¹)⁻¹ x, by the matrix inversion lemma.
   double weight(const Vector6d& expected, const Matrix6d& velocity, const Matrix6d& found) const {
@@ -57,10 +58,12 @@ struct Inertia {
     return std::min(1.0, (kDegreesOfFreedom + 6.0) / (kDegreesOfFreedom + squared));
   }
 
-  /// Of the predicted motion, in the same measure as that of correlated constraints.
+  /// Of the predicted motion, in the same measure as that of correlated constraints. The velocity is that of the past,
+  /// so that it is not known better because the next frame is near.
   Matrix6d information_of(double elapsed_s) const {
-    const double angle = angular_acceleration_rad_s2 * elapsed_s * elapsed_s;
-    const double length_m = acceleration_m_s2 * elapsed_s * elapsed_s;
+    const double squared_s = elapsed_s * std::max(elapsed_s, kVelocityAge_s);
+    const double angle = angular_acceleration_rad_s2 * squared_s;
+    const double length_m = acceleration_m_s2 * squared_s;
     Matrix6d information = Matrix6d::Zero();
     for (int i = 0; i < 3; ++i) {
       information(i, i) = kCorrelated / (angle * angle);
