@@ -11,6 +11,8 @@
 #include <cstddef>
 
 #include "stillpoint/core/frame.hpp"
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/depth/depth_lookup.hpp"
 
 namespace examples {
 
@@ -20,9 +22,13 @@ struct DepthLimits {
   double farthest_m = 6.0;  ///< depth beyond says little
 };
 
-/// Mean depth of the 3x3 pixels, 0 where one of them has none or lies on another surface.
-inline double depth_at(const stillpoint::DepthView& depth, const cv::Point2f& pixel, const DepthLimits& limits) {
-  const int u = cvRound(pixel.x), v = cvRound(pixel.y);
+/// Mean depth of 3x3 pixels of the depth image, 0 where one of them has none or lies on another surface.
+/// @param pixel  of the frame's image; the depth image may be of another size
+inline double depth_at(const stillpoint::FrameView& frame, const cv::Point2f& pixel, const DepthLimits& limits) {
+  const stillpoint::DepthView& depth = frame.depth;
+  const stillpoint::DepthScale to_depth(frame.image(), depth.image);
+  const stillpoint::Vector2f depth_pixel = to_depth({pixel.x, pixel.y});
+  const int u = cvRound(depth_pixel.x()), v = cvRound(depth_pixel.y());
   if (!depth.image.contains(u - 1, v - 1) || !depth.image.contains(u + 1, v + 1)) return 0.0;
   const double centre_m = depth.metres(u, v);
   if (!(centre_m > 0) || centre_m > limits.farthest_m) return 0.0;

@@ -96,7 +96,7 @@ class KeyframePose {
     current.features = std::move(features);
     for (const cv::KeyPoint& keypoint : current.features.keypoints) {
       current.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));
-      current.depth_m.push_back(depth_at(frame.depth, keypoint.pt, options.depth_limits));
+      current.depth_m.push_back(depth_at(frame, keypoint.pt, options.depth_limits));
     }
     return current;
   }

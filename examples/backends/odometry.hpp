@@ -92,7 +92,8 @@ class RgbdOdometry {
   void append(std::size_t feature, const Frame& keyframe, const cv::Point2f& there,
               std::vector<FoundAgain>& found) const {
     const stillpoint::DepthView depth(keyframe.features.depth.view(), keyframe.features.depth_factor);
-    const double depth_m = depth_at(depth, there, pose.options.depth_limits);
+    const stillpoint::FrameView frame(keyframe.features.pyramid.front(), depth, 0.0);  // its time does not matter
+    const double depth_m = depth_at(frame, there, pose.options.depth_limits);
     if (depth_m > 0) found.push_back({feature, pose.camera().undistort({there.x, there.y}), depth_m});
   }
 

@@ -104,7 +104,7 @@ Frame Slam::prepare(const stillpoint::FrameView& view, const OrbFeatures& featur
   frame.point.assign(features.keypoints.size(), kNone);
   for (const cv::KeyPoint& keypoint : features.keypoints) {
     frame.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));
-    frame.depth_m.push_back(view.depth.empty() ? 0.0 : depth_at(view.depth, keypoint.pt, options.depth_limits));
+    frame.depth_m.push_back(depth_at(view, keypoint.pt, options.depth_limits));
     const int u = cvRound(keypoint.pt.x), v = cvRound(keypoint.pt.y);
     if (!view.colour.empty()) {
       const std::uint8_t* bgr = view.colour.row<std::uint8_t>(v) + 3 * u;

@@ -4,12 +4,14 @@
 #include "backends/odometry.hpp"
 
 #include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "stillpoint/opencv.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
@@ -33,7 +35,9 @@ struct Tracked {
   double error_m = 0.0;  ///< of the position, by the camera of frame 0
 };
 
-std::vector<Tracked> track(const std::vector<Step>& steps, const Scene& scene = stillpoint::synthetic::static_room()) {
+/// @param depth_stride  every n-th pixel of the depth image is left, in both directions
+std::vector<Tracked> track(const std::vector<Step>& steps, const Scene& scene = stillpoint::synthetic::static_room(),
+                           int depth_stride = 1) {
   stillpoint::SyntheticSequence sequence(scene);
   stillpoint::SyntheticFrame frame;
   RgbdOdometry odometry(sequence.camera());
@@ -42,7 +46,10 @@ std::vector<Tracked> track(const std::vector<Step>& steps, const Scene& scene = 
   for (const Step& step : steps) {
     sequence.render(step.index, frame);
     if (tracked.empty()) first_from_world = frame.world_from_camera.inverse();
-    const stillpoint::FrameView view(frame.gray.view(), stillpoint::DepthView(frame.depth.view(), frame.depth_factor),
+    cv::Mat depth;
+    cv::resize(stillpoint::as_mat(frame.depth.view()), depth, {}, 1.0 / depth_stride, 1.0 / depth_stride,
+               cv::INTER_NEAREST);
+    const stillpoint::FrameView view(frame.gray.view(), stillpoint::DepthView(depth, frame.depth_factor),
                                      frame.timestamp_s);
     OrbFeatures features = odometry.extract(view);
     std::vector<std::uint8_t> keep(features.keypoints.size(), 1);
@@ -64,6 +71,13 @@ TEST(RgbdOdometry, FollowsTheCamera) {
   std::vector<Step> steps;
   for (int i = 0; i < 30; ++i) steps.push_back({i});
   for (const Tracked& tracked : track(steps)) {
+    ASSERT_TRUE(tracked.world_from_camera);
+    EXPECT_LT(tracked.error_m, kDrift_m);
+  }
+}
+
+TEST(RgbdOdometry, TakesDepthOfHalfTheSize) {
+  for (const Tracked& tracked : track({{0}, {5}, {10}, {15}}, stillpoint::synthetic::static_room(), 2)) {
     ASSERT_TRUE(tracked.world_from_camera);
     EXPECT_LT(tracked.error_m, kDrift_m);
   }
