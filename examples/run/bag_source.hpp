@@ -22,6 +22,7 @@
 
 #include "bag/rgbd_bag.hpp"
 #include "stillpoint/io/camera_file.hpp"
+#include "stillpoint/io/number_format.hpp"
 #include "stillpoint_ros/camera_info.hpp"
 #include "stillpoint_ros/raw_image.hpp"
 
@@ -42,6 +43,7 @@ class BagSource : public FrameSource {
   std::optional<std::size_t> size() const override { return std::nullopt; }
   const stillpoint::Camera& camera() const override { return camera_.camera; }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return kNoGroundTruth; }
+  std::size_t images_without_depth() const override { return bag_.unpaired_images(); }
   std::vector<std::string> assumptions() const override {
     const stillpoint_ros::BagTopics& topics = bag_.topics();
     return {"Of the bag, images are those of " + topics.image + ", depth is that of " + topics.depth +
@@ -80,6 +82,7 @@ class BagSource : public FrameSource {
       SourceFrame frame;
       frame.timestamp_s = paired.image.stamp_s;
       const cv::Mat image = stillpoint_ros::image_of(paired.image);
+      require_camera_size(image, frame.timestamp_s);
       if (image.channels() == 3) {
         frame.colour = image.clone();
         cv::cvtColor(image, frame.gray, cv::COLOR_BGR2GRAY);
@@ -91,6 +94,16 @@ class BagSource : public FrameSource {
       frame.depth_factor = camera_.depth_factor;
       return frame;
     });
+  }
+
+  /// A recording may change its resolution, and `--camera` may be another's.
+  void require_camera_size(const cv::Mat& image, double timestamp_s) const {
+    const stillpoint::Camera& expected = camera_.camera;
+    if (image.cols == expected.width() && image.rows == expected.height()) return;
+    const auto size = [](int width, int height) { return std::to_string(width) + " x " + std::to_string(height); };
+    throw stillpoint::Error("image at " + stillpoint::format_timestamp(timestamp_s) + " s: found " +
+                            size(image.cols, image.rows) + " pixels, expected the camera's " +
+                            size(expected.width(), expected.height()));
   }
 
   template <class Read>

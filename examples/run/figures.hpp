@@ -32,6 +32,7 @@ struct RunRecord {
   bool has_backend = false, has_stages = false, has_labels = false, has_depth = true;
   bool was_interrupted = false;
   std::size_t missing_files = 0;                ///< that the sequence's lists name
+  std::size_t images_without_depth = 0;         ///< of a bag: they are no frames
   std::vector<std::string> assumptions;         ///< of the source, where nobody told it
   stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame; as a map has them in the end
   stillpoint::Trajectory live;                  ///< the filtered one, as it was known at the time

@@ -66,6 +66,8 @@ class FrameSource {
   virtual std::optional<stillpoint::StereoNoise> stereo_noise() const { return std::nullopt; }
   /// Images that lists name and that are not there: their frames are left out.
   virtual std::size_t missing_files() const { return 0; }
+  /// Images so far that had no depth of their time: they are no frames.
+  virtual std::size_t images_without_depth() const { return 0; }
   /// What is taken for true because nobody said, one sentence each.
   virtual std::vector<std::string> assumptions() const { return {}; }
   /// Nothing behind the last frame. Indices must rise from call to call.

@@ -94,6 +94,7 @@ inline std::string report_json(const Options& options, const RunRecord& run, con
       {"detector", detail::detector_json(run, figures)},
       {"frames", run.frames.size()},
       {"missing_files", run.missing_files},
+      {"images_without_depth", run.images_without_depth},
       {"interrupted", run.was_interrupted},
       {"assumptions", run.assumptions},
       {"features_per_frame", detail::or_null(figures.features_per_frame)},

@@ -184,6 +184,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   if (run.frames.empty())
     throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than the number of " +
                             "frames of " + run.sequence);
+  run.images_without_depth = source.images_without_depth();  // counted while frames were read
   run.detector = detector.finish();
   run.map = filtered.backend.map_files();
   run.live = run.filtered;

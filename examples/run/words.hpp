@@ -116,6 +116,10 @@ inline std::vector<std::string> sentences(const Options& options, const RunRecor
   if (run.missing_files > 0)
     result.push_back(count_words(run.missing_files, "image") + " that the sequence's lists name " +
                      (run.missing_files == 1 ? "is" : "are") + " missing: the frames were left out.");
+  if (run.images_without_depth > 0)
+    result.push_back(count_words(run.images_without_depth, "image") +
+                     (run.images_without_depth == 1 ? " has no depth of its time and was left out."
+                                                    : " have no depth of their time and were left out."));
   if (run.was_interrupted) result.push_back("The run was interrupted: later frames were not filtered.");
   const std::string labels = detail::label_words(run);
   if (!labels.empty()) result.push_back(labels);

@@ -136,6 +136,7 @@ struct RgbdBag::Reader {
   rosbag::View view;
   rosbag::View::iterator message;
   FramePairing pairing;
+  bool is_at_end = false;  ///< what waits now waits in vain
 };
 
 RgbdBag::RgbdBag(const std::filesystem::path& file, const BagTopics& wanted, bool needs_camera_info)
@@ -149,12 +150,16 @@ std::optional<PairedFrame> RgbdBag::next() {
       reader_->take(*reader_->message);
       ++reader_->message;
     }
+    reader_->is_at_end = !frame;
   });
   return frame;
 }
 
 const BagTopics& RgbdBag::topics() const noexcept { return reader_->topics; }
-std::size_t RgbdBag::unpaired_images() const noexcept { return reader_->pairing.unpaired_images(); }
+std::size_t RgbdBag::unpaired_images() const noexcept {
+  const FramePairing& pairing = reader_->pairing;
+  return pairing.unpaired_images() + (reader_->is_at_end ? pairing.waiting_images() : 0);
+}
 
 std::string RgbdBag::why_nothing_pairs() {
   FramePairing& pairing = reader_->pairing;

@@ -33,7 +33,7 @@ class RgbdBag {
 
   /// Those that are read.
   const BagTopics& topics() const noexcept;
-  /// Images that had no depth of their time.
+  /// Images so far that had no depth of their time; behind the last frame, of the whole bag.
   std::size_t unpaired_images() const noexcept;
   /// Why no frame came, if none did.
   std::string why_nothing_pairs();

@@ -34,7 +34,7 @@ class FramePairing {
   };
   Options options;
 
-  void add_image(RawImage image) { images_.add(std::move(image), options.longest_queue); }
+  void add_image(RawImage image) { unpaired_images_ += images_.add(std::move(image), options.longest_queue); }
   void add_depth(RawImage depth) { depths_.add(std::move(depth), options.longest_queue); }
   void add_camera_info(CameraInfo info) {
     // The same camera again only tells the time.
@@ -63,8 +63,11 @@ class FramePairing {
     return std::nullopt;
   }
 
-  /// Images that were left out because no depth came for them, while later ones were paired.
+  /// Images that were left out because no depth came for them: a later one was paired, the queue was full, or a
+  /// recording began anew.
   std::size_t unpaired_images() const noexcept { return unpaired_images_; }
+  /// Images whose depth may still come.
+  std::size_t waiting_images() const noexcept { return images_.queue.size(); }
 
   /// Between the newest image and the depth nearest to it; infinite where one is missing.
   double nearest_difference_s() {
@@ -96,19 +99,28 @@ class FramePairing {
     double paired_s = -std::numeric_limits<double>::infinity();
     std::optional<double> not_later_s;  ///< stamp of the newest message, if that was left out
 
-    void add(RawImage message, std::size_t longest_queue) {
-      if (message.stamp_s < newest_s - kJumpBack_s) *this = Stream();
+    /// @return  how many messages were left out, which waited for their partners
+    std::size_t add(RawImage message, std::size_t longest_queue) {
+      std::size_t left_out = 0;
+      if (message.stamp_s < newest_s - kJumpBack_s) {
+        left_out = queue.size();
+        *this = Stream();
+      }
       newest_s = std::max(newest_s, message.stamp_s);
       if (message.stamp_s <= paired_s) {
         not_later_s = message.stamp_s;
-        return;
+        return left_out;
       }
       not_later_s.reset();
       const auto after =
           std::upper_bound(queue.begin(), queue.end(), message.stamp_s,
                            [](double stamp_s, const RawImage& other) { return stamp_s < other.stamp_s; });
       queue.insert(after, std::move(message));
-      if (queue.size() > std::max<std::size_t>(longest_queue, 1)) queue.pop_front();
+      if (queue.size() > std::max<std::size_t>(longest_queue, 1)) {
+        queue.pop_front();
+        ++left_out;
+      }
+      return left_out;
     }
     void forget_until(Queue::iterator last, double stamp_s) {
       queue.erase(queue.begin(), last + 1);

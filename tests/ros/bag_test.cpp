@@ -37,6 +37,7 @@ struct Contents {
   bool has_depth = true, has_camera_info = true, has_second_image = false;
   bool has_projection = false;  ///< P is the camera's matrix, and K is another's
   int depthless_frame = -1;
+  int small_frame = -1;  ///< whose image is of half the size, and whose camera_info says so
 };
 
 template <class Message>
@@ -75,6 +76,8 @@ void write_bag(const fs::path& file, const Contents& contents = {}) {
     if (contents.encoding == "rgb8") cv::cvtColor(image, image, cv::COLOR_BGR2RGB);
     if (contents.encoding == "mono8") image = as_mat(frame.gray.view());
     if (contents.depth_encoding == "32FC1") depth.convertTo(depth, CV_32F, 1 / 5000.0);
+    const bool is_small = i == contents.small_frame;
+    if (is_small) cv::resize(image, image, {}, 0.5, 0.5);
     const sensor_msgs::Image image_message = message(image, contents.encoding, stamp_s);
     write(bag, "/camera/rgb/image_color", image_message);
     if (contents.has_second_image) write(bag, "/camera/infra/image", image_message);
@@ -86,6 +89,7 @@ void write_bag(const fs::path& file, const Contents& contents = {}) {
     info.header = image_message.header;
     info.width = static_cast<std::uint32_t>(camera.width());
     info.height = static_cast<std::uint32_t>(camera.height());
+    if (is_small) info.width = image_message.width, info.height = image_message.height;
     info.K = {camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1};
     info.distortion_model = contents.distortion_model;
     info.D = contents.distortion;
@@ -245,6 +249,32 @@ TEST_F(Bags, ImagesWithoutDepthAreLeftOutAndCounted) {
   }
   EXPECT_EQ(stamps.size(), static_cast<std::size_t>(kFrames - 1));
   EXPECT_EQ(reader.unpaired_images(), 1u);
+  const auto outcome = run("");
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("1 image has no depth of its time and was left out."), std::string::npos) << outcome.out;
+  EXPECT_EQ(report()["images_without_depth"], 1);
+}
+
+TEST_F(Bags, TheLastImageWithoutDepthIsCountedWhereTheRunGetsThere) {
+  Contents contents;
+  contents.depthless_frame = kFrames - 1;
+  write_bag(bag, contents);
+  ASSERT_EQ(run("").status, 0);
+  EXPECT_EQ(report()["images_without_depth"], 1);
+  ASSERT_EQ(run("--frames 2").status, 0);
+  EXPECT_EQ(report()["images_without_depth"], 0);
+}
+
+TEST_F(Bags, ImagesOfAnotherSizeThanTheCameraAreAnError) {
+  Contents contents;
+  contents.small_frame = 2;
+  write_bag(bag, contents);
+  expect_named_error("", {"small.bag: image at ", " s: found 80 x 60 pixels, expected the camera's 160 x 120"});
+  write_bag(bag);
+  const fs::path camera = folder / "camera.yaml";
+  system_test::write_text(camera,
+                          "fx: 500\nfy: 500\ncx: 319.5\ncy: 239.5\nwidth: 640\nheight: 480\ndepth_factor: 1000\n");
+  expect_named_error("--camera " + quoted(camera), {"found 160 x 120 pixels, expected the camera's 640 x 480"});
 }
 
 }  // namespace

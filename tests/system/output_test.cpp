@@ -103,6 +103,7 @@ void expect_report(const Json& report, int frame_count) {
                                       "detector",
                                       "frames",
                                       "missing_files",
+                                      "images_without_depth",
                                       "interrupted",
                                       "assumptions",
                                       "features_per_frame",

@@ -117,6 +117,17 @@ TEST(FramePairing, QueuesAreShort) {
   EXPECT_FALSE(pairing.take()) << "that image is gone";
   pairing.add_depth(at(7));
   EXPECT_EQ(pairing.take()->image.stamp_s, 7);
+  EXPECT_EQ(pairing.unpaired_images(), 7u) << "0 to 6, which the queue of 3 could not keep";
+}
+
+TEST(FramePairing, CountsTheImagesBeforeARecordingThatBeginsAnew) {
+  FramePairing pairing;
+  pairing.add_camera_info(camera_at(0));
+  pairing.add_image(at(50));
+  pairing.add_image(at(51));
+  pairing.add_image(at(10));
+  EXPECT_EQ(pairing.unpaired_images(), 2u);
+  EXPECT_EQ(pairing.waiting_images(), 1u);
 }
 
 TEST(FramePairing, TheCameraIsOfTheImagesSizeAndNearestInTime) {
