@@ -13,6 +13,7 @@
 #include "run/feature_bytes.hpp"
 #include "run/moments.hpp"
 #include "run/mover_history.hpp"
+#include "run/options.hpp"
 #include "run/picture_roll.hpp"
 #include "run/report_plots.hpp"
 #include "run/run_paths.hpp"
@@ -39,6 +40,27 @@ FrameRecord record_with(Status status) {
   FrameRecord record;
   record.summary.status = status;
   return record;
+}
+
+TEST(Settings, WhatAFileOfOptionsSaysIsNotTheCommandLines) {
+  Options options;
+  const auto value = [&options](const std::string& name) {
+    for (const auto& [setting, text] : settings(options))
+      if (setting == name) return text;
+    return std::string("is not there");
+  };
+  options.seed = 7;
+  EXPECT_EQ(value("--depth-noise"), "kinect");
+  EXPECT_EQ(value("--false-positive-rate"), "0.01");
+  EXPECT_EQ(value("--seed"), "7");
+  options.stages = "mine.yaml";
+  for (const char* name : {"--depth-noise", "--false-positive-rate", "--seed"}) EXPECT_EQ(value(name), "by --options");
+  options.given = {"--options", "--seed"};
+  EXPECT_EQ(value("--seed"), "7");
+  EXPECT_EQ(value("--depth-noise"), "by --options");
+  options.policies = "paper";
+  EXPECT_EQ(value("--false-positive-rate"), "n/a");
+  EXPECT_EQ(value("--paper-as-printed"), "by --options");
 }
 
 TEST(PictureRoll, KeepsAllFramesThatFit) {
