@@ -110,10 +110,11 @@ class OptionReader {
                expected_of_choice(words...));
   }
 
+  /// @param skipped  may be there, too, though nobody asked for it
   /// @throws Error if the map holds what was not asked for and no earlier version had.
-  void require_all_known() {
+  void require_all_known(std::string_view skipped = "") {
     for (const YamlNode& entry : node_.entries) {
-      bool is_known = false;
+      bool is_known = !skipped.empty() && entry.name == skipped;
       for (const std::string_view name : known_) is_known = is_known || name == entry.name;
       if (is_known || collect_replaced(path_ + entry.name, entry)) continue;
       std::string list;
@@ -212,7 +213,8 @@ void write_options(const std::filesystem::path& file, FrameFilter<Policies>& fil
   output.commit();
 }
 
-/// Sets the options that a file names; the others stay. Call it before the first frame.
+/// Sets the options that a file names; the others stay. Call it before the first frame. A filter without movers skips
+/// the group `movers`, so that one file serves sets with and without them.
 /// @throws Error naming file, line and option, what was found and what was expected: an option that no stage of this
 /// filter
 ///         has, a value of the wrong kind or out of its range. `ReplacedOptionsError` naming what replaced each, where
@@ -224,7 +226,7 @@ void read_options(const std::filesystem::path& file, FrameFilter<Policies>& filt
     std::vector<std::string> replaced;
     detail::OptionReader reader(yaml, yaml.root(), "", assigns, replaced);
     each_option(filter, reader);
-    reader.require_all_known();
+    reader.require_all_known("movers");
     if (replaced.empty()) continue;
     std::string list;
     for (const std::string& line : replaced) list += "\n  " + line;

@@ -217,6 +217,21 @@ TEST_F(OptionsFile, ErrorsNameFileLineOptionFoundAndExpected) {
 }
 
 // What robots have: no first line of OpenCV's. A stage without an option is none.
+TEST_F(OptionsFile, ThatOfASetWithMoversIsReadByOneWithout) {
+  struct MoverPolicies : WithMovers<> {};
+  FrameFilter<MoverPolicies> with_movers(any_camera());
+  with_movers.gate.options.false_positive_rate = 0.2;
+  const std::filesystem::path path = folder.path() / "movers.yaml";
+  write_options(path, with_movers);
+  read_options(path, filter);
+  EXPECT_EQ(filter.gate.options.false_positive_rate, 0.2);
+  with_movers.gate.options.false_positive_rate = 0.1;
+  EXPECT_NE(
+      error_of([&] { read_options(file("movers:\n   speed: 1\n"), with_movers); }).find("movers.speed is unknown"),
+      std::string::npos)
+      << "whose options they are checks them";
+}
+
 TEST_F(OptionsFile, PlainYamlIsRead) {
   read_options(folder.write("options.yaml", "# mine\ngate:\nscorer: {pixel_sigma: 2, depth_sigmas: 3}\n"), filter);
   EXPECT_EQ(filter.scorer.options.pixel_sigma, 2.0);
