@@ -7,6 +7,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -18,7 +19,9 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/pipeline/motion_expectation.hpp"
 
 namespace stillpoint_python {
 
@@ -124,7 +127,8 @@ inline std::vector<stillpoint::Vector2f> pixels_of(const py::handle& keypoints) 
 }
 
 /// A 4 x 4 matrix as a pose.
-/// @throws Error if its last row is not 0 0 0 1: it would be transposed, or of another kind
+/// @throws Error if it is not finite, its last row is not 0 0 0 1 (it would be transposed, or of another kind), or its
+///         3 x 3 part is no rotation
 inline stillpoint::Pose pose_of(const py::handle& object, const std::string& name) {
   const py::array array = as_array(object, name, "a NumPy array with shape (4, 4)");
   if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
@@ -132,9 +136,19 @@ inline stillpoint::Pose pose_of(const py::handle& object, const std::string& nam
   const py::array_t<double, py::array::c_style | py::array::forcecast> packed(array);
   stillpoint::Pose pose = stillpoint::Pose::Identity();
   for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) pose.matrix()(row, column) = packed.at(row, column);
+    for (int column = 0; column < 4; ++column) {
+      const double number = packed.at(row, column);
+      if (!std::isfinite(number))
+        throw stillpoint::Error(name + " holds " + stillpoint::option_text(number) + " in row " + std::to_string(row) +
+                                ", column " + std::to_string(column) + ", expected finite numbers");
+      pose.matrix()(row, column) = number;
+    }
   if (pose.matrix().row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     throw stillpoint::Error(name + " has another last row than 0 0 0 1: is it transposed?");
+  if (!stillpoint::is_rigid(pose))
+    throw stillpoint::Error(name + " holds no rotation: the determinant of its 3 x 3 part is " +
+                            stillpoint::option_text(pose.linear().determinant()) +
+                            ", expected orthogonal columns of length 1 and a determinant of 1");
   return pose;
 }
 

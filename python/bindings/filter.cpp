@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -81,10 +82,20 @@ std::string result_text(const Result& result) {
   return text + '>';
 }
 
+void require(bool is_right, const char* name, float value, const char* expected) {
+  if (!is_right)
+    throw stillpoint::Error(std::string(name) + " is " + stillpoint::option_text(value) + ", expected " + expected);
+}
+
 Detection detection_of(float x, float y, float width, float height, int mobility, float confidence,
                        const py::object& mask, std::int16_t class_index) {
   if (mobility < 0 || mobility > static_cast<int>(stillpoint::Mobility::dynamic))
     throw stillpoint::Error("mobility is " + std::to_string(mobility) + ", expected a stillpoint.Mobility");
+  require(std::isfinite(x), "x", x, "a finite number of pixels");
+  require(std::isfinite(y), "y", y, "a finite number of pixels");
+  require(std::isfinite(width) && width >= 0, "width", width, "0 or more pixels");
+  require(std::isfinite(height) && height >= 0, "height", height, "0 or more pixels");
+  require(confidence >= 0 && confidence <= 1, "confidence", confidence, "a number from 0 to 1");
   Detection detection;
   detection.box = {x, y, width, height};
   detection.mobility = static_cast<stillpoint::Mobility>(mobility);

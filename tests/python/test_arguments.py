@@ -213,7 +213,18 @@ def test_poses(frame_filter, method):
     call(np.eye(4))
     call(np.eye(4, dtype=np.float32))
     call(np.asfortranarray(np.eye(4)))
-    call(np.diag([1.0, 1.0, -1.0, 1.0]))  # a mirror is no pose, and is not believed
+    drifted = np.eye(4, dtype=np.float32)
+    drifted[0, 0] = 1.001  # what many products in single precision leave
+    call(drifted)
+    for wrong, determinant in ((np.diag([1.0, 1.0, -1.0, 1.0]), "-1"), (np.diag([2.0, 2.0, 2.0, 1.0]), "8")):
+        with pytest.raises(stillpoint.Error, match=f"^[a-z_]+ holds no rotation: the determinant of its 3 x 3 part is "
+                                                   f"{determinant}, expected orthogonal columns of length 1"):
+            call(wrong)
+    for number in (np.nan, np.inf):
+        with pytest.raises(stillpoint.Error, match="^[a-z_]+ holds (nan|inf) in row 0, column 3, expected finite numbers$"):
+            call(np.array([[1, 0, 0, number], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]))
+    with pytest.raises(stillpoint.Error, match="holds nan in row 0, column 0"):
+        call(np.full((4, 4), np.nan))
     with pytest.raises(stillpoint.Error, match=r"has shape \(3, 4\), expected \(4, 4\)"):
         call(np.eye(4)[:3])
     transposed = np.eye(4)
@@ -258,6 +269,13 @@ def test_detections(frames, camera):
         stillpoint.Detection(0, 0, 1, 1, mask=np.ones((2, 2)))
     with pytest.raises(stillpoint.Error, match=r"mask has shape \(4,\), expected \(rows, columns\)"):
         stillpoint.Detection(0, 0, 1, 1, mask=np.ones(4, bool))
+    for name, value, expected in [("x", np.nan, "a finite number of pixels"), ("y", np.inf, "a finite number of pixels"),
+                                  ("width", np.nan, "0 or more pixels"), ("height", -1, "0 or more pixels"),
+                                  ("width", np.inf, "0 or more pixels"), ("confidence", np.nan, "a number from 0 to 1"),
+                                  ("confidence", 1.5, "a number from 0 to 1"), ("confidence", -0.5, "a number from 0 to 1")]:
+        with pytest.raises(stillpoint.Error, match=f"^{name} is {value}, expected {expected}$"):
+            stillpoint.Detection(**{**dict(x=0, y=0, width=1, height=1), name: value})
+    stillpoint.Detection(-5, -5, 0, 0, confidence=0)  # clipped at an image's rim: it covers nothing
     everywhere = dict(x=0, y=0, width=320, height=240, mobility=stillpoint.Mobility.dynamic)
 
     def kept(**more):
