@@ -11,10 +11,17 @@ class Backend(_BuildMetaBackend):
         super().run_setup(setup_script)
 
 
+class UnsupportedOperation(Exception):
+    """What a frontend expects of a hook that a project has not (PEP 517)."""
+
+
+def build_sdist(sdist_directory, config_settings=None):
+    raise UnsupportedOperation("stillpoint has no archive of sources for Python, because its C++ is outside of the package; "
+                               "build the wheel in a checkout instead: pip wheel --no-build-isolation . (docs/python.md)")
+
+
 _backend = Backend()
-build_sdist = _backend.build_sdist
 build_wheel = _backend.build_wheel
-get_requires_for_build_sdist = _backend.get_requires_for_build_sdist
 get_requires_for_build_wheel = _backend.get_requires_for_build_wheel
 prepare_metadata_for_build_wheel = _backend.prepare_metadata_for_build_wheel
 if hasattr(_backend, "build_editable"):  # from setuptools 64 on

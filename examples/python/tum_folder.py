@@ -29,6 +29,9 @@ for time_s, image_file in rows("rgb.txt"):
     image = cv2.imread(str(folder / image_file))
     depth = cv2.imread(str(folder / depth_file), cv2.IMREAD_UNCHANGED)  # uint16
     keypoints, descriptors = orb.detectAndCompute(image, None)
+    if descriptors is None:
+        print(f"{time_s}: no features")  # a dark image, for example
+        continue
     result = frame_filter.filter_frame(image, depth, float(time_s), keypoints, depth_factor)
     descriptors = descriptors[result.keep]
     matches = matcher.match(descriptors, last) if last is not None else []

@@ -5,11 +5,13 @@
 
 import ast
 import enum
+import importlib
 import pathlib
 import re
 import subprocess
 import sys
 
+import cv2
 import pytest
 
 import stillpoint
@@ -81,6 +83,30 @@ def test_program():
     assert program("--version").stdout.strip().endswith(stillpoint.__version__)
     wrong = program("--tum", "/none")
     assert wrong.returncode == 2 and wrong.stderr.startswith("stillpoint_run: ") and wrong.stderr.count("\n") == 1
+
+
+def test_the_example_passes_over_images_without_features(reference, tmp_path):
+    for file in reference.iterdir():
+        if file.name != "rgb":
+            (tmp_path / file.name).symlink_to(file)
+    rows = [row for row in (reference / "rgb.txt").read_text().splitlines() if not row.startswith("#")][:4]
+    (tmp_path / "rgb.txt").unlink()
+    (tmp_path / "rgb.txt").write_text("\n".join(rows))
+    (tmp_path / "rgb").mkdir()
+    for i, row in enumerate(rows):
+        image = cv2.imread(str(reference / row.split()[1]))
+        cv2.imwrite(str(tmp_path / row.split()[1]), image * (i not in (0, 2)))  # black
+    outcome = subprocess.run([sys.executable, PROJECT / "examples/python/tum_folder.py", tmp_path], capture_output=True,
+                             text=True)
+    assert outcome.returncode == 0, outcome.stderr
+    assert [line.split(":", 1)[1][:13] == " no features" for line in outcome.stdout.splitlines()] == [True, False, True, False]
+
+
+def test_an_archive_of_sources_is_refused(monkeypatch):
+    monkeypatch.syspath_prepend(PROJECT / "python")
+    backend = importlib.import_module("setup_beside_package")
+    with pytest.raises(backend.UnsupportedOperation, match="no archive of sources .* build the wheel"):
+        backend.build_sdist("anywhere")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the memory map of Linux")
