@@ -16,6 +16,8 @@ from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+# Without --backend slam and --bag, stillpoint_run in the wheel needs OpenCV and yaml-cpp alone of the machine that it runs on.
+SMALL_PROGRAM = ["-DCMAKE_DISABLE_FIND_PACKAGE_Ceres=ON", "-DSTILLPOINT_BUILD_ROS=OFF"]
 
 
 class CMakeBuild(build_ext):
@@ -24,7 +26,7 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve()
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DSTILLPOINT_BUILD_PYTHON=ON", "-DSTILLPOINT_BUILD_EXAMPLES=ON",
                    "-DSTILLPOINT_BUILD_TESTS=OFF", "-DSTILLPOINT_BUILD_BENCHMARKS=OFF", "-DSTILLPOINT_BUILD_DOCS=OFF",
-                   "-DSTILLPOINT_BUILD_SHIM=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+                   "-DSTILLPOINT_BUILD_SHIM=OFF", *SMALL_PROGRAM, f"-DPython_EXECUTABLE={sys.executable}",
                    f"-Dpybind11_DIR={pybind11.get_cmake_dir()}"] + shlex.split(os.environ.get("CMAKE_ARGS", ""))
         (package / "stillpoint_run").unlink(missing_ok=True)  # of an earlier build with other options
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
