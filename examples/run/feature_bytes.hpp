@@ -30,16 +30,16 @@ inline std::uint16_t rounded_i16(double value) {
 }  // namespace detail
 
 /// 12 bytes a feature, little-endian:
-///   u16 x, u16 y    1/16 px
+///   u16 x, u16 y    1/8 px
 ///   u8  verdict (bits 0-1), kept (bit 2), mobility of the prior (bits 3-4)
 ///   u8  reason; the one behind the last is the oracle's "label"
 ///   i16 score       1/100; -32768: not scored
 ///   i8  offset x, i8 offset y   half pixels; both -128: not known
-///   u16 depth       millimetres; 0: none
+///   u16 depth       centimetres; 0: none
 /// @param offsets_px  as many as the record has rows; NaN where not known
 inline std::vector<std::uint8_t> feature_bytes(const FrameRecord& record,
                                                const std::vector<stillpoint::Vector2f>& offsets_px) {
-  constexpr double kStepsPerPixel = 16.0, kStepsPerScore = 100.0, kStepsPerOffsetPixel = 2.0;
+  constexpr double kStepsPerPixel = 8.0, kStepsPerScore = 100.0, kStepsPerOffsetPixel = 2.0, kStepsPerMetre = 100.0;
   constexpr std::uint16_t kNoScore = 0x8000;
   std::vector<std::uint8_t> bytes;
   bytes.reserve(12 * record.rows.size());
@@ -62,7 +62,8 @@ inline std::vector<std::uint8_t> feature_bytes(const FrameRecord& record,
       put_u8(offset.allFinite() ? static_cast<unsigned>(static_cast<int>(std::lround(std::clamp(
                                       kStepsPerOffsetPixel * static_cast<double>(component), -127.0, 127.0))))
                                 : 128u);
-    put_u16(detail::rounded_u16(1000.0 * std::max(0.0, row.depth_m)));
+    // A depth, however small, is not none.
+    put_u16(row.depth_m > 0 ? detail::rounded_u16(std::max(1.0, kStepsPerMetre * row.depth_m)) : std::uint16_t{0});
   }
   return bytes;
 }

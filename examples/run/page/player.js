@@ -43,10 +43,10 @@ function featuresOf(picture) {
     const bits = view.getUint8(at + 4), score = view.getInt16(at + 6, true);
     const dx = view.getInt8(at + 8), dy = view.getInt8(at + 9);
     features.push({
-      x: view.getUint16(at, true) / 16, y: view.getUint16(at + 2, true) / 16,
+      x: view.getUint16(at, true) / 8, y: view.getUint16(at + 2, true) / 8,
       verdict: bits & 3, kept: (bits & 4) !== 0, reason: view.getUint8(at + 5),
       score: score === -32768 ? null : score / 100,
-      offset: dx === -128 ? null : [dx / 2, dy / 2], depth: view.getUint16(at + 10, true) / 1000});
+      offset: dx === -128 ? null : [dx / 2, dy / 2], depth: view.getUint16(at + 10, true) / 100});
   }
   return features;
 }

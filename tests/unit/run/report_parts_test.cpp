@@ -91,14 +91,13 @@ TEST(PictureRoll, GivesUpEverySecondButNoneThatIsNew) {
 
 TEST(FeatureBytes, AreAsThePageReadsThem) {
   FrameRecord record;
-  FeatureRow row{{100.5f, 20.25f}, {}, "inconsistent", -1.5f, 2.345, stillpoint::Mobility::dynamic};
+  FeatureRow row{{100.5f, 20.25f}, {}, "inconsistent", -1.5f, 2.34, stillpoint::Mobility::dynamic};
   row.label.verdict = stillpoint::Verdict::dynamic;
   row.label.keep = false;
   row.label.reason = stillpoint::Reason::inconsistent;
   record.rows = {row};
   const auto bytes = feature_bytes(record, {{-3.0f, 1.5f}});
-  const std::vector<std::uint8_t> expected = {1608 & 255, 1608 >> 8, 324 & 255, 324 >> 8, 1 | 3 << 3, 5,
-                                              106,        255,       256 - 6,   3,        2345 & 255, 2345 >> 8};
+  const std::vector<std::uint8_t> expected = {804 & 255, 804 >> 8, 162, 0, 1 | 3 << 3, 5, 106, 255, 256 - 6, 3, 234, 0};
   EXPECT_EQ(bytes, expected);
   record.rows[0].reason = "label";
   record.rows[0].score = std::nanf("");
@@ -106,6 +105,21 @@ TEST(FeatureBytes, AreAsThePageReadsThem) {
   EXPECT_EQ(other[5], stillpoint::kReasonCount) << "the oracle's";
   EXPECT_EQ(other[6] | other[7] << 8, 0x8000);
   EXPECT_EQ(other[8], 128);
+}
+
+TEST(FeatureBytes, HoldLargeImagesFarSurfacesAndVeryNearOnes) {
+  FrameRecord record;
+  FeatureRow row{{6000.0f, 5000.5f}, {}, "inconsistent", 0.0f, 70.5, stillpoint::Mobility::unknown};
+  record.rows = {row, row, row};
+  record.rows[1].depth_m = 0.001;
+  record.rows[2].depth_m = 0.0;
+  const auto bytes = feature_bytes(record, {{0, 0}, {0, 0}, {0, 0}});
+  const auto u16 = [&bytes](std::size_t at) { return bytes[at] | bytes[at + 1] << 8; };
+  EXPECT_EQ(u16(0), 6000 * 8);
+  EXPECT_EQ(u16(2), 5000 * 8 + 4);
+  EXPECT_EQ(u16(10), 7050);
+  EXPECT_EQ(u16(22), 1) << "0 is no depth";
+  EXPECT_EQ(u16(34), 0);
 }
 
 /// Ten frames in which the camera goes straight ahead by 1 m/s; unfiltered it bends off to the right from frame 5 on.
