@@ -40,6 +40,9 @@ class RosParameters {
     return given(name, found) ? found : value;
   }
 
+  /// The whole name of an option on the parameter server.
+  std::string server_name(const std::string& name) const { return node_.getNamespace() + '/' + ros_name(name); }
+
   /// The names that were given, as the options are called.
   std::vector<std::string> given() const {
     std::vector<std::string> all, names;
@@ -91,7 +94,8 @@ class StillpointNode {
     const std::vector<std::string> known = core_.start(parameters);
     const std::string unknown = stillpoint_ros::unknown_parameter(parameters.given(), known);
     if (!unknown.empty())
-      throw stillpoint::Error("parameter " + unknown + " is unknown; docs/tuning.md lists the options");
+      throw stillpoint::Error("parameter " + unknown + " is unknown; docs/tuning.md lists the options. " +
+                              "It stays on the parameter server: rosparam delete " + parameters.server_name(unknown));
 
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
     image_in_ = node_.subscribe<sensor_msgs::Image>(

@@ -50,6 +50,7 @@ fails_with 'parameter gate.false_positive_rate is 5, expected a number from 0.00
 fails_with "parameter gate.false_positive_rate is 'high', expected a number" __name:=typed _gate/false_positive_rate:=high
 fails_with "parameter follow_movers is 'often', expected true or false" __name:=typed _follow_movers:=often
 fails_with 'parameter margin is unknown' __name:=misspelled _margin:=5
+fails_with 'It stays on the parameter server: rosparam delete /misspelled/margin' __name:=misspelled
 fails_with "parameter depth_noise.model is 'lidar', expected kinect or stereo or tof" __name:=other _depth_noise/model:=lidar
 
 follow_movers=true
