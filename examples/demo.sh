@@ -3,7 +3,8 @@
 # SPDX-License-Identifier: MIT
 
 # demo.sh [ARGUMENT...]: installs what is missing (as root on Debian), builds stillpoint_run, runs it on its synthetic
-# scene and says where program and report are. Arguments go to stillpoint_run. From any folder:
+# scene and says where program and report are. Arguments go to stillpoint_run after --demo and --out: those of a run of the
+# scene, such as --frames 60 or --policies paper; neither another input nor another --out. From any folder:
 #   bash examples/demo.sh
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
