@@ -72,6 +72,8 @@ inline std::vector<Condition> conditions() {
       {"drop", 1, 0.2, true, nullptr, none},
       {"shadow", 1, 0, false, nullptr, projector},
       {"flying", 1, 0, true, nullptr, random(flying)},
+      {"double", 1, 0, false, double_sized, fixed(doubled)},
+      {"bumper", 1, 0, false, nullptr, fixed(bumper)},
   };
 }
 
@@ -104,7 +106,7 @@ inline LabelledSequence degraded_sequence(const std::filesystem::path& folder, c
   return sequence;
 }
 
-/// Boxes of the folder's boxes.txt, as a perfect detector's, for images of the recording's size or half of it.
+/// Boxes of the folder's boxes.txt, as a perfect detector's, for images of the recording's size or `scale` times it.
 inline void add_boxes(const std::filesystem::path& folder, double scale, LabelledSequence& sequence) {
   const std::vector<FrameBoxes> boxes = read_boxes(folder / "boxes.txt");
   const MobilityTable mobility;

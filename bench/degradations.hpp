@@ -165,6 +165,37 @@ inline Degradation half() {
   };
 }
 
+/// Twice the size: the image by cubic interpolation, depth and labels each pixel four times. The camera is
+/// `double_sized`.
+inline Degradation doubled() {
+  return [](RawFrame& frame) {
+    const auto four_times = [](cv::Mat& image) {
+      if (!image.empty()) cv::resize(image, image, image.size() * 2, 0, 0, cv::INTER_NEAREST);
+    };
+    cv::resize(frame.colour, frame.colour, frame.colour.size() * 2, 0, 0, cv::INTER_CUBIC);
+    four_times(frame.depth);
+    four_times(frame.labels);
+  };
+}
+
+/// A robot's own bumper, 0.45 m before the camera, in the lowest fifth of the image: patches of some 4 px, the same in
+/// each frame. No labels there and for 8 px above it.
+inline Degradation bumper() {
+  return [texture = cv::Mat()](RawFrame& frame) mutable {
+    const int rows = frame.colour.rows / 5, top = frame.colour.rows - rows;
+    if (texture.empty()) {
+      cv::RNG random(1);
+      texture.create(rows / 4, frame.colour.cols / 4, CV_8UC3);
+      random.fill(texture, cv::RNG::UNIFORM, 40, 215);
+      cv::resize(texture, texture, cv::Size(frame.colour.cols, rows));
+    }
+    texture.copyTo(frame.colour.rowRange(top, frame.colour.rows));
+    frame.depth.rowRange(top, frame.depth.rows).setTo(0.45 * frame.depth_factor);
+    if (!frame.labels.empty())
+      frame.labels.rowRange(std::max(top - 8, 0), frame.labels.rows).setTo(static_cast<int>(PixelLabel::ignore));
+  };
+}
+
 /// Each frame has the depth image of the frame before.
 inline Degradation late_depth() {
   return [last = cv::Mat()](RawFrame& frame) mutable {
@@ -247,6 +278,12 @@ inline Degradation flying(std::uint64_t seed) {
 inline Camera half_sized(const Camera& camera) {
   return Camera(camera.fx() / 2, camera.fy() / 2, (camera.cx() + 0.5) / 2 - 0.5, (camera.cy() + 0.5) / 2 - 0.5,
                 camera.width() / 2, camera.height() / 2, camera.distortion());
+}
+
+/// The camera of images of twice the size: a pixel is two by two, whose middle lies between theirs.
+inline Camera double_sized(const Camera& camera) {
+  return Camera(camera.fx() * 2, camera.fy() * 2, (camera.cx() + 0.5) * 2 - 0.5, (camera.cy() + 0.5) * 2 - 0.5,
+                camera.width() * 2, camera.height() * 2, camera.distortion());
 }
 
 /// A camera file with a focal length that is 2 % too large.

@@ -103,6 +103,11 @@ struct EquidistantFisheye {
 struct AnyDistortion {
   std::variant<NoDistortion, BrownConrady, EquidistantFisheye> model;
 
+  AnyDistortion() = default;
+  AnyDistortion(const NoDistortion&) {}
+  AnyDistortion(const BrownConrady& lens) : model(lens) {}
+  AnyDistortion(const EquidistantFisheye& lens) : model(lens) {}
+
   Vector2d distort(const Vector2d& ideal) const {
     return std::visit([&ideal](const auto& lens) { return lens.distort(ideal); }, model);
   }

@@ -114,6 +114,15 @@ TEST(Distortion, UndistortInvertsDistortOverTheWholeImage) {
   }
 }
 
+TEST(Distortion, ALensIsTheLastArgumentOfACamera) {
+  const BrownConrady lens{-0.3, 0.1, 0.001, -0.001};
+  const Camera camera(500, 500, 320, 240, 640, 480, lens);
+  EXPECT_EQ(camera.distortion().distort({0.3, 0.2}), lens.distort({0.3, 0.2}));
+  const Camera fisheye(500, 500, 320, 240, 640, 480, EquidistantFisheye{0.1, 0, 0, 0});
+  EXPECT_FALSE(has_no_lens(fisheye.distortion()));
+  EXPECT_TRUE(has_no_lens(Camera(500, 500, 320, 240, 640, 480).distortion()));
+}
+
 TEST(Distortion, UndistortIsFiniteWhereThereIsNoInverse) {
   // k1 < 0 alone folds back where 1 + 3 k1 r² = 0: nothing is distorted to a radius beyond 2 r / 3.
   const BrownConrady folding{-0.5, 0, 0, 0, 0};
