@@ -19,6 +19,7 @@
 #include "backends/odometry.hpp"
 #include "backends/oracle_filter.hpp"
 #include "degradations.hpp"
+#include "depth_degradations.hpp"
 #include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/evaluation/trajectory_error.hpp"
 #include "stillpoint/filter_frame.hpp"
@@ -72,6 +73,8 @@ inline std::vector<Condition> conditions() {
       {"drop", 1, 0.2, true, nullptr, none},
       {"shadow", 1, 0, false, nullptr, projector},
       {"flying", 1, 0, true, nullptr, random(flying)},
+      {"filled", 1, 0, false, nullptr, fixed(filled)},
+      {"smoothed", 1, 0, false, nullptr, fixed(smoothed)},
       {"double", 1, 0, false, double_sized, fixed(doubled)},
       {"bumper", 1, 0, false, nullptr, fixed(bumper)},
   };

@@ -80,10 +80,7 @@ class SampsonScore {
           covariance_(motion.covariance) {
       const double length = direction_.norm();
       has_lines_ = !motion.warnings.has(Warning::rotation_only) && length > 0;
-      if (!has_lines_) return;
-      direction_ /= length;
-      covariance_.bottomRows<3>() /= length;  // of a direction, as of a motion without a scale
-      covariance_.rightCols<3>() /= length;
+      if (has_lines_) direction_ /= length;
     }
 
     bool has_lines() const noexcept { return has_lines_; }

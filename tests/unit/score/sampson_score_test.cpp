@@ -80,18 +80,6 @@ TEST_F(SampsonScoreTest, MotionThatIsNotSureMakesLessOfIt) {
   EXPECT_NEAR(score_of(add({409.5, 239.5}, {10, 1})), 1.0 / 3.0 - 0.5, 0.02);
 }
 
-// A tenth of a unit across the line, of the direction or of a motion of 0.02 m: only their share counts.
-TEST_F(SampsonScoreTest, TheUncertaintyIsThatOfTheDirection) {
-  motion.covariance(4, 4) = 0.01;
-  const std::size_t i = add({409.5, 239.5}, {10, 1});
-  const float of_direction = score_of(i);
-  motion.current_from_reference.translation() *= 0.02;
-  motion.covariance(4, 4) *= 0.02 * 0.02;
-  EXPECT_NEAR(score_of(i), of_direction, 1e-5);
-  motion.covariance(4, 4) = 0.0;
-  EXPECT_GT(score_of(i), of_direction + 0.1f);
-}
-
 // Where the camera turned only, a pixel may be parallax: of two one is left, half of (1 / 0.5)² is 2.
 TEST_F(SampsonScoreTest, AfterATurnAPointIsExpectedWhereItTakesIt) {
   for (std::size_t i = 0; i < matches.size(); ++i) matches.current.undistorted[i] = matches.reference.undistorted[i];
