@@ -77,6 +77,21 @@ inline std::array<std::uint16_t, 1024> poisson_quantiles(double mean) {
   return values;
 }
 
+/// Depth and labels take the nearest pixel: nothing lies between two surfaces.
+inline void resize(RawFrame& frame, const cv::Size& size, int interpolation) {
+  cv::resize(frame.colour, frame.colour, size, 0, 0, interpolation);
+  for (cv::Mat* const image : {&frame.depth, &frame.labels})
+    if (!image->empty()) cv::resize(*image, *image, size, 0, 0, cv::INTER_NEAREST);
+}
+
+/// A pixel is a square, whose middle has whole coordinates.
+inline Camera resized(const Camera& camera, double scale) {
+  const auto length = [scale](int px) { return static_cast<int>(scale * px); };
+  return Camera(camera.fx() * scale, camera.fy() * scale, (camera.cx() + 0.5) * scale - 0.5,
+                (camera.cy() + 0.5) * scale - 0.5, length(camera.width()), length(camera.height()),
+                camera.distortion());
+}
+
 }  // namespace detail
 
 /// Something before the lens: in frames 60 to 69 and 120 to 129 the left half is one colour without depth, and has no
@@ -137,27 +152,13 @@ inline Degradation haze() {
 
 /// Half the size: the image by area, depth and labels every second pixel. The camera is `half_sized`.
 inline Degradation half() {
-  return [](RawFrame& frame) {
-    const auto every_second = [](cv::Mat& image) {
-      if (!image.empty()) cv::resize(image, image, image.size() / 2, 0, 0, cv::INTER_NEAREST);
-    };
-    cv::resize(frame.colour, frame.colour, frame.colour.size() / 2, 0, 0, cv::INTER_AREA);
-    every_second(frame.depth);
-    every_second(frame.labels);
-  };
+  return [](RawFrame& frame) { detail::resize(frame, frame.colour.size() / 2, cv::INTER_AREA); };
 }
 
 /// Twice the size: the image by cubic interpolation, depth and labels each pixel four times. The camera is
 /// `double_sized`.
 inline Degradation doubled() {
-  return [](RawFrame& frame) {
-    const auto four_times = [](cv::Mat& image) {
-      if (!image.empty()) cv::resize(image, image, image.size() * 2, 0, 0, cv::INTER_NEAREST);
-    };
-    cv::resize(frame.colour, frame.colour, frame.colour.size() * 2, 0, 0, cv::INTER_CUBIC);
-    four_times(frame.depth);
-    four_times(frame.labels);
-  };
+  return [](RawFrame& frame) { detail::resize(frame, frame.colour.size() * 2, cv::INTER_CUBIC); };
 }
 
 /// A robot's own bumper, 0.45 m before the camera, in the lowest fifth of the image: patches of some 4 px, the same in
@@ -178,17 +179,8 @@ inline Degradation bumper() {
   };
 }
 
-/// The camera of images that were halved by area: a pixel's middle lies between those of two.
-inline Camera half_sized(const Camera& camera) {
-  return Camera(camera.fx() / 2, camera.fy() / 2, (camera.cx() + 0.5) / 2 - 0.5, (camera.cy() + 0.5) / 2 - 0.5,
-                camera.width() / 2, camera.height() / 2, camera.distortion());
-}
-
-/// The camera of images of twice the size: a pixel is two by two, whose middle lies between theirs.
-inline Camera double_sized(const Camera& camera) {
-  return Camera(camera.fx() * 2, camera.fy() * 2, (camera.cx() + 0.5) * 2 - 0.5, (camera.cy() + 0.5) * 2 - 0.5,
-                camera.width() * 2, camera.height() * 2, camera.distortion());
-}
+inline Camera half_sized(const Camera& camera) { return detail::resized(camera, 0.5); }
+inline Camera double_sized(const Camera& camera) { return detail::resized(camera, 2.0); }
 
 /// A camera file with a focal length that is 2 % too large.
 inline Camera wrong_focal(const Camera& camera) {

@@ -33,8 +33,8 @@ struct GuardedDepth {
     if (!(depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.5f)) return 0.0;
     const int u = rounded(pixel.x()), v = rounded(pixel.y()), r = reach_px(depth.image);
     if (u < r || v < r || u + r >= depth.image.width || v + r >= depth.image.height) return 0.0;
-    return depth.image.format == PixelFormat::depth16 ? of_surface<std::uint16_t>(depth, u, v, noise)
-                                                      : of_surface<float>(depth, u, v, noise);
+    return depth.image.format == PixelFormat::depth16 ? of_surface<std::uint16_t>(depth, u, v, r, noise)
+                                                      : of_surface<float>(depth, u, v, r, noise);
   }
 
   /// The same at a pixel of the gray image, whose depth image may have another size.
@@ -53,10 +53,9 @@ struct GuardedDepth {
 
   /// Compared in the units of the image: metres of the extremes alone.
   template <class Depth, class Noise>
-  double of_surface(const DepthView& depth, int u, int v, const Noise& noise) const {
+  double of_surface(const DepthView& depth, int u, int v, int r, const Noise& noise) const {
     const Depth centre = depth.image.row<Depth>(v)[u];
     if (!DepthView::is_depth(centre)) return 0.0;
-    const int r = reach_px(depth.image);
     int neighbours = 0;
     Depth nearest = centre, farthest = centre;
     for (int j = -r; j <= r; ++j) {

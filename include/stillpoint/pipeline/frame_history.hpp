@@ -63,8 +63,7 @@ class FrameHistory {
   bool skips_second_last() const noexcept { return skips_second_last_; }
 
   /// Copies a frame in; the oldest is overwritten when the ring is full, or the last one, if it is too close to the one
-  /// before it. Where its motion is not known, the older ones
-  /// are forgotten: their poses are of another world now.
+  /// before it. Where its motion is not known, the older ones are forgotten: their poses are of another world now.
   void push(const FrameView& frame, const Motion& motion) {
     if (!motion.usable()) clear();
     push(frame, filter_from_current(motion));

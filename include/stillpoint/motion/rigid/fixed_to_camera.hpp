@@ -12,6 +12,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/rigid/reprojection_residual.hpp"
+#include "stillpoint/motion/rigid/stationary_camera.hpp"
 
 namespace stillpoint {
 
@@ -42,7 +43,6 @@ struct FixedToCamera {
   }
 
  private:
-  static constexpr double kRest_px = 0.3;      // a corner that moved less is at rest
   static constexpr double kMoved_px = 1.0;     // the others move by so much on average, clearly more
   static constexpr double kNearer = 0.7;       // times their depth, what is fixed lies before them
   static constexpr double kLeastShare = 0.05;  // of the weight of all corners that is fixed
@@ -56,13 +56,15 @@ struct FixedToCamera {
   static bool find(span<const PointConstraint> points, const Camera& camera, span<std::uint8_t> is_fixed,
                    Workspace& workspace) {
     const Workspace::Scope scope(workspace);
-    const span<std::uint8_t> rests = workspace.take<std::uint8_t>(points.size(), std::uint8_t{0});
+    const span<std::uint8_t> rests = workspace.take<std::uint8_t>(points.size(), std::uint8_t{0});  // with a depth
     double moving = 0, moved_px = 0, with_depth = 0, inverse_depth = 0;
     for (std::size_t k = 0; k < points.size(); ++k) {
       const PointConstraint& point = points[k];
       const double step_px = (camera.project(point.point) - point.pixel).norm();
-      rests[k] = step_px < kRest_px;
-      if (rests[k] != 0) continue;
+      if (step_px < StationaryCamera::kRest_px) {
+        rests[k] = point.has_depth();
+        continue;
+      }
       moving += point.weight;
       moved_px += point.weight * step_px;
       if (!point.has_depth()) continue;
@@ -72,12 +74,12 @@ struct FixedToCamera {
     if (!(with_depth > 0) || moved_px < kMoved_px * moving) return false;
     const double nearest_m = kNearer * with_depth / inverse_depth;
     double fixed = 0, behind = 0;
+    const auto lies_before = [nearest_m](const PointConstraint& point) { return point.point.z() < nearest_m; };
     for (std::size_t k = 0; k < points.size(); ++k)
-      if (rests[k] != 0 && points[k].has_depth())
-        (points[k].point.z() < nearest_m ? fixed : behind) += points[k].weight;
+      if (rests[k] != 0) (lies_before(points[k]) ? fixed : behind) += points[k].weight;
     if (fixed < kLeastShare * (fixed + moving) || behind > kMostBehind * moving) return false;
     for (std::size_t k = 0; k < points.size(); ++k)
-      if (rests[k] != 0 && points[k].has_depth() && points[k].point.z() < nearest_m) is_fixed[points[k].feature] = 1;
+      if (rests[k] != 0 && lies_before(points[k])) is_fixed[points[k].feature] = 1;
     return true;
   }
 };

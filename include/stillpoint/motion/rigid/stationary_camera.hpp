@@ -16,6 +16,8 @@ namespace stillpoint {
 /// leaves nothing at rest but what is fixed to it, and that lies before the world, and what is too far away to show its
 /// motion. Without this, a person who stands close before the lens and sways takes the pose along.
 struct StationaryCamera {
+  static constexpr double kRest_px = 0.3;  ///< a corner that moved less is at rest
+
   bool is_enabled = true;  ///< false: no camera is taken for stationary; no option in files
 
   /// Between the last frame and this one.
@@ -51,7 +53,6 @@ struct StationaryCamera {
   }
 
  private:
-  static constexpr double kRest_px = 0.3;        // a corner that moved less is at rest
   static constexpr double kParallax_px = 0.05;   // what rests would have moved so far, if the camera had, or is too far
   static constexpr double kBeginsShare = 0.9;    // of the weight of all corners that is at rest when a camera stops
   static constexpr double kMajorityShare = 0.5;  // while it is stationary, so much is enough …
