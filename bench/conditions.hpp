@@ -74,6 +74,7 @@ inline std::vector<Condition> conditions() {
       {"shadow", 1, 0, false, nullptr, projector},
       {"flying", 1, 0, true, nullptr, random(flying)},
       {"filled", 1, 0, false, nullptr, fixed(filled)},
+      {"fattened", 1, 0, false, nullptr, fixed(fattened)},
       {"smoothed", 1, 0, false, nullptr, fixed(smoothed)},
       {"double", 1, 0, false, double_sized, fixed(doubled)},
       {"bumper", 1, 0, false, nullptr, fixed(bumper)},

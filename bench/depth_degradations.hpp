@@ -76,6 +76,18 @@ inline Degradation smoothed() {
   };
 }
 
+/// Near surfaces grow by half a window of 9 × 9 px, as in depth from stereo that compares blocks: what is beside them
+/// gets their depth.
+inline Degradation fattened() {
+  return [](RawFrame& frame) {
+    constexpr int kWindow_px = 9;
+    constexpr std::uint16_t kFarthest = 65535;
+    frame.depth.setTo(kFarthest, frame.depth == 0);
+    cv::erode(frame.depth, frame.depth, cv::Mat::ones(kWindow_px, kWindow_px, CV_8UC1));
+    frame.depth.setTo(0, frame.depth == kFarthest);
+  };
+}
+
 /// Each frame has the depth image of the frame before.
 inline Degradation late_depth() {
   return [last = cv::Mat()](RawFrame& frame) mutable {
