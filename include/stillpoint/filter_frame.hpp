@@ -95,7 +95,9 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
 
   /// The host's own pose of the frame that was filtered last, after its tracking. Those of two frames in a row predict
   /// the next motion. A pose that is not rigid is none, nor is a motion of more than 100 m (`is_plausible_motion`).
+  /// After a frame that was rejected, the host's pose is of that one's time and is not used.
   void feedback(const Pose& world_from_camera) {
+    if (FrameCheck::rejects(result_.status())) return;
     const std::optional<Pose> host_motion = expectation_.feedback(world_from_camera);
     if (host_motion) use_check_.compare(*host_motion, result_.motion_);
   }

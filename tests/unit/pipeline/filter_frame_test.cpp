@@ -469,6 +469,19 @@ TEST_F(FrameFilterTest, PosesThatAreNotOfConsecutiveFramesPredictNothing) {
   EXPECT_TRUE(filter_.ego_motion.asked.current_from_reference->isApprox(own)) << "two steps are not one";
 }
 
+// The camera goes at 10 m/s. The host has a pose of the rejected frame at 1.15 s, too.
+TEST_F(FrameFilterTest, APoseOfARejectedFrameIsNotThatOfTheLastOne) {
+  at(1.0);
+  filter_.feedback(pose({0, 0, 0}, {0, 0, 0}));
+  at(1.1);
+  filter_.feedback(pose({0, 0, 0}, {1, 0, 0}));
+  expect_open(filter_.filter_frame(FrameView(cv::Mat(), DepthView::tum(depth_), 1.15), keypoints_), Status::no_image);
+  filter_.feedback(pose({0, 0, 0}, {1.5, 0, 0}));
+  at(1.2);
+  ASSERT_TRUE(filter_.ego_motion.asked.current_from_reference);
+  EXPECT_TRUE(filter_.ego_motion.asked.current_from_reference->isApprox(pose({0, 0, 0}, {-1, 0, 0})));
+}
+
 TEST_F(FrameFilterTest, ALaterPoseOfTheSameFrameReplacesTheEarlier) {
   at(1.0);
   filter_.feedback(pose({0, 0, 0}, {1, 0, 0}));
