@@ -163,8 +163,9 @@ class Engine {
 
   bool expect_motion(const double* current_from_reference) {
     const std::optional<stillpoint::Pose> motion = rigid_motion(current_from_reference);
-    if (motion) filter_.expect_motion(*motion);
-    return motion.has_value();
+    const bool is_taken = motion && stillpoint::is_plausible_motion(*motion);
+    if (is_taken) filter_.expect_motion(*motion);
+    return is_taken;
   }
 
   void reset() {

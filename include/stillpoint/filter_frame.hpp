@@ -81,7 +81,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       mask_prediction.forget();
       if (status != Status::ok) reset();
       frame = with_gray(host_frame, gray_);
-      if (status == Status::ok) status = pixels_.empty() ? Status::no_keypoints : judge(frame);
+      if (status == Status::ok) status = pixels_.empty() ? without_keypoints(frame) : judge(frame);
       history_.push(frame, result_.motion_);
       expectation_.advance(frame.timestamp_s, result_.motion_);
     }
@@ -117,7 +117,8 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
 
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
   /// that its budget goes to static features. Everywhere, where the last frame was not judged, is more than a second
-  /// older or not older at all, or an option is out of its range. It knows no keep-floor.
+  /// older or not older at all, or an option is out of its range. A frame that was rejected is none: the one before it
+  /// is the last. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
   /// @param margin_px    more is dropped around moving objects; 8 in all measured figures (docs/adopting.md)
   /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
@@ -151,6 +152,12 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
  private:
+  /// What a detector saw in such a frame is not of a later one.
+  Status without_keypoints(const FrameView& frame) {
+    prior.regions(frame, observations_.regions);
+    return Status::no_keypoints;
+  }
+
   /// @param frame  its depth is that of the image's time afterwards, if the motion is known
   Status judge(FrameView& frame) {
     const FrameView as_it_came = frame, reference = history_.back(1).view();

@@ -32,18 +32,28 @@ struct has_keypoint_traits<Keypoint,
                            std::enable_if_t<std::is_convertible_v<
                                decltype(keypoint_traits<Keypoint>::pixel(std::declval<const Keypoint&>())), Vector2f>>>
     : std::true_type {};
+
+template <class Range, class = void>
+struct is_contiguous : std::false_type {};
+template <class Range>
+struct is_contiguous<Range, std::void_t<decltype(span(std::declval<const Range&>()))>> : std::true_type {};
 }  // namespace detail
 
 /// @param keypoints  any contiguous range of a type with `keypoint_traits`
 /// @param pixels     overwritten; its memory is reused
 template <class Keypoints>
 span<const Vector2f> read_pixels(const Keypoints& keypoints, std::vector<Vector2f>& pixels) {
-  using Keypoint = typename decltype(span(keypoints))::value_type;
-  static_assert(detail::has_keypoint_traits<Keypoint>::value,
-                "stillpoint: specialise stillpoint::keypoint_traits<YourKeypoint> with static Vector2f pixel(const "
-                "YourKeypoint&); see core/keypoint.hpp");
+  static_assert(detail::is_contiguous<Keypoints>::value,
+                "stillpoint: keypoints must be contiguous in memory, as std::vector, std::array or an array is; "
+                "copy others, such as std::deque, into a std::vector");
   pixels.clear();
-  for (const Keypoint& keypoint : keypoints) pixels.push_back(keypoint_traits<Keypoint>::pixel(keypoint));
+  if constexpr (detail::is_contiguous<Keypoints>::value) {
+    using Keypoint = typename decltype(span(keypoints))::value_type;
+    static_assert(detail::has_keypoint_traits<Keypoint>::value,
+                  "stillpoint: specialise stillpoint::keypoint_traits<YourKeypoint> with static Vector2f pixel(const "
+                  "YourKeypoint&); see core/keypoint.hpp");
+    for (const Keypoint& keypoint : keypoints) pixels.push_back(keypoint_traits<Keypoint>::pixel(keypoint));
+  }
   return pixels;
 }
 

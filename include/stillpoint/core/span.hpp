@@ -22,6 +22,9 @@ class span {
   constexpr span() noexcept = default;
   constexpr span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
 
+  template <class U, std::size_t kSize, class = std::enable_if_t<std::is_convertible_v<U (*)[], T (*)[]>>>
+  constexpr span(U (&array)[kSize]) noexcept : data_(array), size_(kSize) {}
+
   /// From anything contiguous: std::vector, std::array, another span.
   template <class Range, class = std::enable_if_t<std::is_convertible_v<
                              std::remove_pointer_t<decltype(std::declval<Range&>().data())> (*)[], T (*)[]>>>
@@ -42,6 +45,9 @@ class span {
   T* data_ = nullptr;
   std::size_t size_ = 0;
 };
+
+template <class T, std::size_t kSize>
+span(T (&)[kSize]) -> span<T>;
 
 template <class Range>
 span(Range&) -> span<std::remove_pointer_t<decltype(std::declval<Range&>().data())>>;

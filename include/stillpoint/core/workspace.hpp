@@ -19,6 +19,10 @@ namespace stillpoint {
 /// Hands out arrays that live until `rewind()` or until the `Scope` in which they were taken ends.
 class Workspace {
  public:
+  Workspace() = default;
+  Workspace(Workspace&&) = default;  // and no copy: those of a filter are refused by name
+  Workspace& operator=(Workspace&&) = default;
+
   /// Rewinds to where it stood when the scope was opened: scratch of a stage ends with the stage.
   class Scope {
    public:

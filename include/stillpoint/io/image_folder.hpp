@@ -84,6 +84,7 @@ inline std::optional<double> time_of_name(const std::filesystem::path& file) {
   const auto number = parse_number(stem);
   if (!number || stem.find_first_not_of("0123456789.") != stem.npos) return std::nullopt;
   if (stem.find('.') != stem.npos) return number;
+  if (stem.front() == '0') return std::nullopt;  // a counter, filled up
   switch (stem.size()) {
     case 13: return *number * 1e-3;
     case 16: return *number * 1e-6;

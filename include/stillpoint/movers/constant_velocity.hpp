@@ -24,8 +24,8 @@ class ConstantVelocity {
   void predict(const Matrix3d& current_from_reference, double elapsed_s, double acceleration_sigma) {
     velocity_ = current_from_reference * velocity_;
     covariance_ = current_from_reference * covariance_ * current_from_reference.transpose();
-    const double change = acceleration_sigma * elapsed_s;
-    covariance_ += change * change * Matrix3d::Identity();
+    constexpr double kChangesEvery_s = 1.0 / 30.0;  // for so long an acceleration holds
+    covariance_ += acceleration_sigma * acceleration_sigma * kChangesEvery_s * elapsed_s * Matrix3d::Identity();
   }
 
   /// Nothing is measured: what moved comes to rest some time.

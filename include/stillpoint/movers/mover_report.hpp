@@ -43,7 +43,7 @@ class MoverReport {
       mover.first_feature = result.feature.size();
       mover.first_pixel = result.pixel.size();
       for (std::size_t i = 0; i < matches.size(); ++i) {
-        if (features.object_of[i] != static_cast<std::int32_t>(o)) continue;
+        if (!object.is_seen || features.object_of[i] != static_cast<std::int32_t>(o)) continue;
         result.pixel.push_back(matches.current.pixel[i]);
         result.match.push_back(static_cast<std::uint32_t>(i));
         if (i >= matches.host_count) continue;

@@ -71,7 +71,7 @@ class MoverTracking {
                                           camera,
                                           options.pixel_sigma,
                                           workspace.take<std::int32_t>(matches.size(), kNone)};
-    for (TrackedObject& object : objects_) object.predict(motion.current_from_reference, matches.elapsed_s);
+    predict(motion, matches);
     const PixelGrid followed(matches.current.pixel, features.beside_px(), workspace,
                              [&](std::size_t i) { return !objects_.empty() && matches.metric(i); });
     const DynamicPoints loose = claim(features, followed, workspace);
@@ -95,6 +95,18 @@ class MoverTracking {
   static constexpr std::size_t kMostLoose = 4000;  // features that are grouped: K-means takes 10 ms of them
   static constexpr std::int32_t kNone = -1;
   static constexpr double kTentative_s = 0.2;  // an object that was never reported is forgotten after so long
+
+  /// Where the objects are now. Over a frame or two that were not judged the camera went as it goes now; after more of
+  /// them nobody knows where it looks, and so where the objects are.
+  void predict(const Motion& motion, const Matches& matches) {
+    constexpr double kLongestGuess_s = 0.1;
+    if (matches.unjudged_s > kLongestGuess_s) return objects_.clear();
+    const double elapsed_s = matches.elapsed_s + matches.unjudged_s;
+    const Pose current_from_judged = matches.unjudged_s > 0
+                                         ? scaled(motion.current_from_reference, elapsed_s / matches.elapsed_s)
+                                         : motion.current_from_reference;
+    for (TrackedObject& object : objects_) object.predict(current_from_judged, elapsed_s);
+  }
 
   /// Gives features to the objects that they are of. What does not look dynamic may be of an object that hardly moves.
   /// @return the dynamic features that no object claims

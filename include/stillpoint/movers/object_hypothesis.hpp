@@ -54,7 +54,9 @@ class ObjectHypothesis {
       const double says =
           log_likelihood_ratio(features.pair(stepped), object.mover.current_from_reference * reference_from_current);
       const auto probability = static_cast<double>(labels[i].probability);
-      if (!(std::log(probability / (1.0 - probability)) + says > kNeeded)) continue;
+      const double log_odds = std::log(probability / (1.0 - probability)) + says;
+      if (!(log_odds > kNeeded)) continue;
+      labels[i].probability = static_cast<float>(1.0 / (1.0 + std::exp(-log_odds)));
       labels[i].verdict = Verdict::dynamic;
       labels[i].keep = false;
       labels[i].reason = Reason::object_motion;

@@ -113,6 +113,10 @@ struct TrackedObject {
     const Pose current_from_last = step(elapsed_s) * current_from_reference;
     mover.centroid = step(elapsed_s) * mover.centroid;
     mover.current_from_reference = current_from_last;
+    mover.has_rotation = mover.has_rotation && surely_turns;
+    mover.covariance.setZero();
+    mover.covariance.bottomRightCorner<3, 3>() = elapsed_s * elapsed_s * linear.covariance();
+    if (mover.has_rotation) mover.covariance.topLeftCorner<3, 3>() = elapsed_s * elapsed_s * angular.covariance();
     for (Vector3d& point : points) point = current_from_last * point;
   }
 

@@ -41,6 +41,7 @@ class MaskPrediction {
   void remember(const Matches& matches, span<const Label> labels, double timestamp_s) {
     forget();
     timestamp_s_ = timestamp_s;
+    reach_px_ = std::max(1, rounded(matches.pixel_scale * static_cast<float>(options.reach_px)));
     pixel_.reserve(matches.size());  // with the first frame, not with the first that moves
     seen_.reserve(matches.size());
     const auto moves = [](const Label& label) { return label.verdict == Verdict::dynamic; };
@@ -97,7 +98,7 @@ class MaskPrediction {
     refill(cells_, static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     const ImageView image(nullptr, width, height, 0, PixelFormat::gray8);
     const Workspace::Scope scope(workspace);
-    const auto reach_px = static_cast<float>(options.reach_px);
+    const auto reach_px = static_cast<float>(reach_px_);
     const PixelGrid around(pixel_, reach_px, workspace, [](std::size_t) { return true; });
     const PixelGrid followed(pixel_, 2 * reach_px, workspace,
                              [&](std::size_t j) { return seen_[j].moves && seen_[j].followed; });
@@ -126,7 +127,7 @@ class MaskPrediction {
   /// Do most features near `i` on its surface move as well?
   bool with_surface(std::size_t i, const PixelGrid& around) const {
     int moving = 0, all = 0;
-    around.within(pixel_[i], static_cast<float>(options.reach_px), [&](std::size_t j, float) {
+    around.within(pixel_[i], static_cast<float>(reach_px_), [&](std::size_t j, float) {
       if (!one_surface(seen_[i], seen_[j].depth_m)) return;
       ++all;
       moving += seen_[j].moves;
@@ -137,7 +138,7 @@ class MaskPrediction {
   /// How fast feature `i` goes: by itself, else with the moving ones around it, else with its object.
   Vector2f velocity_px(std::size_t i, const PixelGrid& followed) const {
     if (seen_[i].followed) return seen_[i].velocity_px;
-    const auto reach_px = static_cast<float>(2 * options.reach_px);
+    const auto reach_px = static_cast<float>(2 * reach_px_);
     Vector2f sum = Vector2f::Zero();
     float weight = 0;
     followed.within(pixel_[i], reach_px, [&](std::size_t j, float squared) {
@@ -154,9 +155,9 @@ class MaskPrediction {
     mark_cell(pixel_[i] + step);
     if (depth.empty() || !with_surface) return;
     const DepthScale to_depth(image, depth.image);
-    for (int dv = -options.reach_px; dv <= options.reach_px; dv += kCell_px) {
-      for (int du = -options.reach_px; du <= options.reach_px; du += kCell_px) {
-        if (du * du + dv * dv > options.reach_px * options.reach_px) continue;
+    for (int dv = -reach_px_; dv <= reach_px_; dv += kCell_px) {
+      for (int du = -reach_px_; du <= reach_px_; du += kCell_px) {
+        if (du * du + dv * dv > reach_px_ * reach_px_) continue;
         const Vector2f pixel = pixel_[i] + Vector2f(static_cast<float>(du), static_cast<float>(dv));
         const Vector2f there = to_depth(pixel);
         const auto u = static_cast<int>(std::lround(there.x())), v = static_cast<int>(std::lround(there.y()));
@@ -201,6 +202,7 @@ class MaskPrediction {
   std::vector<Seen> seen_;
   std::vector<std::uint8_t> cells_;
   int columns_ = 0, rows_ = 0;
+  int reach_px_ = 0;  // of the options, in pixels of this camera
   double timestamp_s_ = std::numeric_limits<double>::quiet_NaN();
 };
 

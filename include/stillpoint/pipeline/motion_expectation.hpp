@@ -53,10 +53,13 @@ class MotionExpectation {
     MotionPrior prior;
     prior.stationary = stationary_;
     if (last_timestamp_s_) prior.elapsed_s = timestamp_s - *last_timestamp_s_;
+    prior.is_told = said_.has_value();
     if (said_)
       prior.current_from_reference = said_;
-    else if (last_motion_ && last_timestamp_s_)
+    else if (last_motion_ && prior.elapsed_s < kMostStretch * last_interval_s_)
       prior.current_from_reference = scaled(*last_motion_, prior.elapsed_s / last_interval_s_);
+    else if (last_motion_ && prior.elapsed_s > 0)
+      prior.current_from_reference = mean_velocity_.during(prior.elapsed_s);
     if (prior.elapsed_s > 0) prior.predicted = said_ ? said_ : mean_velocity_.during(prior.elapsed_s);
     // A velocity over a tiny interval, that of two time stamps a rounding apart, is none.
     for (std::optional<Pose>* pose : {&prior.current_from_reference, &prior.predicted})
@@ -81,6 +84,8 @@ class MotionExpectation {
   const std::optional<double>& last_timestamp_s() const noexcept { return last_timestamp_s_; }
 
  private:
+  static constexpr double kMostStretch = 10.0;  // in time: stamps that are next to each other give no velocity
+
   std::optional<Pose> said_;
   MeanVelocity mean_velocity_;       // of the motions that were found; the host's own poses do not change it
   std::optional<Pose> last_motion_;  // what was done within last_interval_s_

@@ -27,9 +27,11 @@ class UseCheck {
   /// @param depth_m  theirs, 0 for none; of a frame that was judged
   void observe(Status status, const FrameView& frame, span<const Vector2f> pixels, span<const double> depth_m,
                const Motion& motion) {
-    if (status == Status::first_frame || FrameCheck::rejects(status)) return;
-    times_far_apart_.count(status == Status::time_gap || status == Status::out_of_order);
-    if (status == Status::time_gap || status == Status::out_of_order) return;
+    const bool is_time_wrong =
+        status == Status::time_gap || status == Status::out_of_order || status == Status::duplicate_frame;
+    if (status == Status::first_frame || (FrameCheck::rejects(status) && !is_time_wrong)) return;
+    times_far_apart_.count(is_time_wrong);
+    if (is_time_wrong) return;
     nothing_fits_.count(!judged(status) && status != Status::no_keypoints);
     count_places(frame.image().width, frame.image().height, pixels);
     depth_shape_differs_.count(!frame.depth.empty() && !have_same_shape(frame.depth.image, frame.image()));
@@ -87,10 +89,13 @@ class UseCheck {
         return "The image is not of the camera's size: give the intrinsics of this resolution.";
       case Status::invalid_options: return "An option is out of its range: options_error() names it.";
       case Status::invalid_time: return "Time is in seconds: divide nanoseconds by 1e9.";
+      case Status::no_depth:
+        return "No feature has a depth: pass the depth image of this image, or use MonocularPolicies without depth.";
       default: break;
     }
     if (warnings.has(Warning::times_far_apart))
-      return "Each frame comes too late for the last one: is time in seconds, and does it grow?";
+      return "Hardly a frame has a time that fits the last one's: is it in seconds, a double with its fraction, and "
+             "does it grow?";
     if (warnings.has(Warning::keypoints_outside))
       return "Half of the keypoints are outside of the image: are they of another resolution?";
     if (warnings.has(Warning::keypoints_in_one_quarter))
@@ -100,7 +105,8 @@ class UseCheck {
     if (warnings.has(Warning::depth_turned_over))
       return "The depth image fits better when it is mirrored or turned over: is it that of this image?";
     if (warnings.has(Warning::scale_differs))
-      return "The host moves more than twice or less than half as far as the depth says: is the depth's unit right?";
+      return "The host moves more than twice or less than half as far as the depth says: is the depth's unit right? If "
+             "so, host or filter follow something that moves.";
     if (warnings.has(Warning::motion_too_fast))
       return "The camera moves by metres from frame to frame: is the depth's unit right, and time in seconds?";
     if (warnings.has(Warning::depth_too_near))
@@ -109,8 +115,8 @@ class UseCheck {
       return "Depth images are older or newer than their images, by half the time between frames or more: pair them by "
              "time, or let the sensor synchronise them.";
     if (warnings.has(Warning::nothing_fits))
-      return "Hardly a frame can be judged: are depth and image aligned, of one moment, not mirrored, and the focal "
-             "lengths right?";
+      return "Hardly a frame can be judged: are depth and image aligned, of one moment, not mirrored, the focal "
+             "lengths right, and has reference_pixels, if it is used, one entry per keypoint?";
     return "";
   }
 

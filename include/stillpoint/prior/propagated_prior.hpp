@@ -58,10 +58,13 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// The regions of a frame: what was seen in it, as it was handed over, then what is carried.
   void regions(const FrameView& frame, Regions& regions) {
+    if (images_.empty()) began_s_ = frame.timestamp_s;
+    const bool is_long_ago = frame.timestamp_s - began_s_ > carrying.longest_s;  // no answer comes so late
+    if (is_long_ago) forgotten_s_ = -std::numeric_limits<double>::infinity();
     const ImageMotion& image = images_.push(frame);
     for (CarriedDetection& object : objects_) {
       object.predict(image);
-      follow_depth(frame.depth, DepthScale(frame.image(), frame.depth.image), object);
+      follow_depth(frame.depth, DepthScale(frame.image(), frame.depth.image), image.elapsed_s, object);
     }
     ForegroundPrior::regions(frame, regions);
     if (is_answered_ || !detections.empty()) {
@@ -103,21 +106,23 @@ class PropagatedPrior : public ForegroundPrior {
   }
 
  private:
-  static constexpr double kHalfLife_s = 1.0;         // in which the confidence of an unseen box halves
-  static constexpr int kMostMissed = 8;              // an object that was missing in more answers in a row is forgotten
-  static constexpr double kGrowth_per_s = 0.2;       // share of its size by which an unseen box grows on each side
-  static constexpr float kLeastOverlap = 0.2f;       // intersection over union: above, a new box is a carried object's
-  static constexpr double kMostJump_m = 0.2;         // of an object's depth between frames; more is something before it
+  static constexpr double kHalfLife_s = 1.0;    // in which the confidence of an unseen box halves
+  static constexpr int kMostMissed = 8;         // an object that was missing in more answers in a row is forgotten
+  static constexpr double kGrowth_per_s = 0.2;  // share of its size by which an unseen box grows on each side
+  static constexpr float kLeastOverlap = 0.2f;  // intersection over union: above, a new box is a carried object's
+  static constexpr double kMostJump_m = 0.2;    // of an object's depth between frames; more is something before it …
+  static constexpr double kFastest_m_s = 3.0;   // … unless it can have come or gone so far
   static constexpr std::size_t kFewestFeatures = 4;  // on an object, to be carried by them
 
   /// Finds the depth of a carried object, which can't have jumped: then something else is before it, or it is behind
   /// something, and its old depth stays.
-  void follow_depth(const DepthView& depth, const DepthScale& to_depth, CarriedDetection& object) const {
+  void follow_depth(const DepthView& depth, const DepthScale& to_depth, double elapsed_s,
+                    CarriedDetection& object) const {
     if (depth.empty()) return;
     Detection measured = object.detection;
     set_range(depth, to_depth, measured);
     const double jump_m = 0.5 * (measured.nearest_m + measured.farthest_m) - object.depth_m();
-    if (object.has_depth_range() && !(std::abs(jump_m) <= kMostJump_m)) return;
+    if (object.has_depth_range() && !(std::abs(jump_m) <= std::max(kMostJump_m, kFastest_m_s * elapsed_s))) return;
     object.detection.nearest_m = measured.nearest_m;
     object.detection.farthest_m = measured.farthest_m;
     object.detection.depth_slope_m = measured.depth_slope_m;
@@ -134,7 +139,7 @@ class PropagatedPrior : public ForegroundPrior {
       for (std::size_t i = frame + 1; i < images_.size(); ++i) {
         const ImageMotion& image = images_[i];
         object.predict(image);
-        follow_depth(image.depth(), image.to_depth(), object);
+        follow_depth(image.depth(), image.to_depth(), image.elapsed_s, object);
         object.correct(image, kFewestFeatures, workspace_);
       }
       fresh_.push_back(object);
@@ -205,6 +210,7 @@ class PropagatedPrior : public ForegroundPrior {
   bool is_answered_ = false;  // even if `detections` is empty
   double last_answer_s_ = -std::numeric_limits<double>::infinity();
   double forgotten_s_ = -std::numeric_limits<double>::infinity();  // frames until then are of before `reset()`
+  double began_s_ = 0;                                             // of the first frame after it
   Workspace workspace_;
 };
 

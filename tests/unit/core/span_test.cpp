@@ -31,6 +31,11 @@ TEST(Span, SeesTheElementsOfContiguousRanges) {
   EXPECT_EQ(of_array[2], 6);
   of_vector[1] = 20;
   EXPECT_EQ(vector[1], 20);
+  int plain[] = {7, 8};
+  const span<const int> of_plain(plain);
+  EXPECT_EQ(of_plain.data(), plain);
+  EXPECT_EQ(of_plain.size(), 2u);
+  static_assert(std::is_same_v<decltype(span(plain)), span<int>>);
   static_assert(std::is_same_v<decltype(span(vector)), span<int>>);
   static_assert(std::is_same_v<decltype(span(std::as_const(vector))), span<const int>>);
 }

@@ -80,8 +80,8 @@ TEST_F(ImageFolderTest, TimesAreReadFromNames) {
   EXPECT_NEAR(*detail::time_of_name("1403636579763555584.png"), 1403636579.763555584, 1e-6);
   EXPECT_NEAR(*detail::time_of_name("1403636579763555.png"), 1403636579.763555, 1e-6);
   EXPECT_NEAR(*detail::time_of_name("1403636579763.png"), 1403636579.763, 1e-6);
-  for (const char* none :
-       {"a1.5.png", "1.5a.png", "1e5.0.png", "-1.5.png", "1.2.3.png", "12345678901234.png", ".5.png"})
+  for (const char* none : {"a1.5.png", "1.5a.png", "1e5.0.png", "-1.5.png", "1.2.3.png", "12345678901234.png", ".5.png",
+                           "0000000000001.png", "0000000000000000001.png"})
     EXPECT_FALSE(detail::time_of_name(none)) << none;
 }
 

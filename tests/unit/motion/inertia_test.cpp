@@ -49,6 +49,12 @@ TEST(Inertia, AVelocityIsNotKnownBetterBecauseTheNextFrameIsNear) {
   }
 }
 
+// Two images whose stamps are 0.1 ms apart were not taken 0.1 ms apart.
+TEST(Inertia, StampsNextToEachOtherSayNothing) {
+  EXPECT_FALSE(Inertia().applies(predicted(Pose::Identity(), 1e-4)));
+  EXPECT_TRUE(Inertia().applies(predicted(Pose::Identity(), 1.0 / 240.0)));
+}
+
 // What the constraints hold stays; what they leave open goes all the way, from any pose.
 TEST(Inertia, FillsInWhatTheConstraintsLeaveOpen) {
   const Pose found = test::pose_of({0.3, -0.2, 0.1}, {1.0, 2.0, -0.5});

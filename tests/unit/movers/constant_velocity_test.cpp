@@ -20,11 +20,14 @@ TEST(ConstantVelocity, MeasurementAsGoodAsWhatIsKnownMovesItHalfTheWay) {
   EXPECT_LT((filter.covariance() - 0.5 * Matrix3d::Identity()).norm(), kExact);
 }
 
-// 2 m/s² for 0.5 s: one (m/s)² more.
-TEST(ConstantVelocity, VarianceGrowsWithAccelerationTimesTimeSquared) {
-  ConstantVelocity filter(1.0);
-  filter.predict(Matrix3d::Identity(), 0.5, 2.0);
-  EXPECT_LT((filter.covariance() - 2.0 * Matrix3d::Identity()).norm(), kExact);
+// 2 m/s² that change every 1/30 s: after 0.5 s 15 independent steps of 1/15 m/s, 15 / 225 = 1/15 (m/s)² more, whatever
+// the frame rate.
+TEST(ConstantVelocity, VarianceGrowsWithTime) {
+  for (const int frames : {1, 5, 15, 45}) {
+    ConstantVelocity filter(1.0);
+    for (int i = 0; i < frames; ++i) filter.predict(Matrix3d::Identity(), 0.5 / frames, 2.0);
+    EXPECT_LT((filter.covariance() - (1.0 + 1.0 / 15.0) * Matrix3d::Identity()).norm(), 1e-12) << frames;
+  }
 }
 
 TEST(ConstantVelocity, TurnsWithTheCamera) {

@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "stillpoint/evaluation/error_statistics.hpp"
@@ -123,6 +124,7 @@ struct SceneRun {
       last_id = mover.id;
       for (const std::uint32_t i : result.features(mover)) EXPECT_EQ(result.mover(i), &mover);
       listed += result.features(mover).size();
+      EXPECT_TRUE(mover.state != MoverState::lost || result.features(mover).empty());
       EXPECT_TRUE(mover.centroid.allFinite() && mover.velocity.allFinite());
     }
     EXPECT_EQ(with_mover, listed);
@@ -187,6 +189,49 @@ TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASeco
     EXPECT_LE(median(figures.carried_m), 0.05) << "seed " << seed;
     EXPECT_LE(median(figures.speed_m_s), 0.1) << "seed " << seed;
   }
+}
+
+/// A person walks by while the camera swings to the right by 0.45 rad in a third of a second.
+/// @param unseen  so many frames of the swing show no feature
+/// @return        the movers of the frame after them, and by how much the first is off across, metres
+std::pair<std::size_t, double> movers_after_a_swing(int unseen) {
+  synthetic::Scene scene = synthetic::crossing_people(vga(42));
+  scene.movers.erase(scene.movers.begin());
+  const Vector3d place = scene.camera_path.world_from_camera(0.0).translation();
+  scene.camera_path = {synthetic::Path({{0.0, place, 0.10, -0.19, 0},
+                                        {0.93, place, 0.10, -0.19, 0},
+                                        {1.27, place, 0.55, -0.19, 0},
+                                        {3, place, 0.55, -0.19, 0}},
+                                       synthetic::Blend::eased),
+                       {}};
+  SyntheticSequence sequence(scene);
+  SyntheticFrame frame;
+  FrameFilter<WithMovers<>> filter(scene.camera);
+  const auto orb = cv::ORB::create(800);
+  constexpr int kMiddle = 33;
+  const int first = kMiddle - unseen / 2, last = first + unseen - 1;
+  for (int f = 0;; ++f) {
+    sequence.render(f, frame);
+    std::vector<cv::KeyPoint> keypoints;
+    if (f < first || f > last) orb->detect(as_mat(frame.gray.view()), keypoints);
+    const FrameResult& result = filter.filter_frame(frame.view(), keypoints);
+    const std::size_t count = result.movers().size();
+    EXPECT_TRUE(f != first - 1 || count == 1) << f;
+    if (f <= last) continue;
+    const Vector3d truth = frame.world_from_camera.inverse() * frame.world_from_mover[0] * Vector3d(0, -1, 0);
+    return {count, count > 0 ? result.movers()[0].centroid.x() - truth.x() : 0.0};
+  }
+}
+
+// The swing makes 1.3 rad/s, in which the person, 3 m away, goes by 13 cm across the view in one frame.
+TEST(MoverTracking, OverAFrameThatIsNotJudgedTheCameraGoesOn) {
+  const auto [count, off_m] = movers_after_a_swing(2);
+  ASSERT_EQ(count, 1u);
+  EXPECT_NEAR(off_m, 0.0, 0.15);
+}
+
+TEST(MoverTracking, OverManyFramesThatAreNotJudgedNobodyKnowsWhereAnObjectIs) {
+  EXPECT_EQ(movers_after_a_swing(11).first, 0u);
 }
 
 TEST(MoverTracking, NothingMovesInAStaticRoom) {

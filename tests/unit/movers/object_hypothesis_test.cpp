@@ -94,6 +94,7 @@ TEST_F(ObjectHypothesisTest, WhatGoesAsItsObjectGoesIsDropped) {
   EXPECT_FALSE(labels[i].keep);
   EXPECT_EQ(labels[i].reason, Reason::object_motion);
   EXPECT_EQ(object_of[i], 0);
+  EXPECT_NEAR(labels[i].probability, 0.4 * 4 / (0.4 * 4 + 0.6), 0.01) << "what its weight is made of";
 }
 
 TEST_F(ObjectHypothesisTest, WhatStandsStaysAsItIs) {

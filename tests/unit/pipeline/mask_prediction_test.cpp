@@ -100,6 +100,21 @@ TEST_F(MaskPredictionTest, MarginIsDroppedAroundIt) {
   EXPECT_FALSE(drops(79, 66) || drops(101, 66) || drops(90, 55) || drops(90, 77));
 }
 
+// 40 px beside it is beyond 24 px, and within 2 · 24 px of a camera of twice the focal length.
+TEST_F(MaskPredictionTest, ReachIsAnAngle) {
+  set_depth(2.0f, 2.0f, 0);
+  add({80, 60}, {80, 60}, Verdict::dynamic, 2.0);
+  predict();
+  EXPECT_TRUE(drops(80 + 20, 60));
+  EXPECT_FALSE(drops(80 + 40, 60));
+  matches.pixel_scale = 2.0f;
+  predict();
+  EXPECT_TRUE(drops(80 + 40, 60));
+  matches.pixel_scale = 0.5f;
+  predict();
+  EXPECT_FALSE(drops(80 + 20, 60));
+}
+
 TEST_F(MaskPredictionTest, FeatureWithoutAMatchGoesWithTheMovingOnesAroundIt) {
   add({60, 60}, {70, 60}, Verdict::dynamic);
   add({80, 60}, {90, 60}, Verdict::dynamic);

@@ -174,6 +174,32 @@ TEST(MotionExpectation, TheVelocityHolds) {
   EXPECT_TRUE(expectation.at(1.3).current_from_reference->isApprox(shift(0.2)));
 }
 
+// 0.1 m within 0.1 s, then 0.1 m within 10 µs, by two stamps next to each other: the latter is no velocity of 10 km/s,
+// and the mean one holds.
+TEST(MotionExpectation, TwoStampsNextToEachOtherAreNoVelocity) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  expectation.advance(1.1, motion(false));
+  expectation.advance(1.10001, motion(false));
+  const MotionPrior prior = expectation.at(1.2);
+  ASSERT_TRUE(prior.current_from_reference && prior.predicted);
+  EXPECT_TRUE(prior.current_from_reference->isApprox(*prior.predicted));
+  EXPECT_TRUE(expectation.at(1.10010).current_from_reference->isApprox(shift(0.9), 1e-6)) << "within ten times as long";
+}
+
+TEST(MotionExpectation, OnlyWhatTheHostSaysOfTheMotionItselfIsTold) {
+  MotionExpectation expectation;
+  expectation.advance(1.0, Motion());
+  expectation.feedback(shift(2.0));
+  expectation.advance(1.1, motion(false));
+  expectation.feedback(shift(1.6));
+  EXPECT_FALSE(expectation.at(1.2).is_told);
+  expectation.expect(shift(0.25));
+  EXPECT_TRUE(expectation.at(1.2).is_told);
+  expectation.advance(1.2, motion(false));
+  EXPECT_FALSE(expectation.at(1.3).is_told) << "it was of that frame";
+}
+
 TEST(MotionExpectation, TheHostsPosesCorrectTheVelocity) {
   MotionExpectation expectation;
   expectation.advance(1.0, Motion());

@@ -78,6 +78,21 @@ TEST_F(UseCheckTest, FramesThatCannotBeJudgedAreSaidAfterTwenty) {
   EXPECT_TRUE(warns(Warning::nothing_fits));
 }
 
+// A time in whole seconds, or in a float.
+TEST_F(UseCheckTest, FramesOfTheSameTimeAreSaidAfterTwenty) {
+  for (int i = 0; i < 25; ++i) {  // a host that passes each frame twice
+    observe(1, Status::ok);
+    observe(1, Status::duplicate_frame);
+  }
+  EXPECT_FALSE(warns(Warning::times_far_apart));
+  observe(20, Status::duplicate_frame);
+  EXPECT_TRUE(warns(Warning::times_far_apart));
+}
+
+TEST_F(UseCheckTest, WithoutAnyDepthTheFirstFrameSaysSo) {
+  EXPECT_NE(std::string(UseCheck::hint(Status::no_depth, {})).find("MonocularPolicies"), std::string::npos);
+}
+
 TEST_F(UseCheckTest, FramesWithoutKeypointsOrThatAreRefusedSayNothing) {
   observe(30, Status::no_keypoints);
   observe(30, Status::first_frame);

@@ -465,6 +465,31 @@ TEST_F(PropagatedPriorTest, ResetForgetsThingsAndFrames) {
   EXPECT_EQ(next().detections.size(), 1u);
 }
 
+// A bag of 2 s that plays in a loop: nothing that was seen before the reset can be as late as this.
+TEST_F(PropagatedPriorTest, TheSecondRoundOfARecordingIsAnsweredToItsEnd) {
+  for (int i = 0; i < 40; ++i) next();
+  prior_.reset();
+  frame_ = -1;
+  for (int i = 0; i < 40; ++i) {
+    next();
+    if (now_s() <= prior_.carrying.longest_s) continue;
+    prior_.detected(now_s(), {seen(truth_)});
+    ASSERT_EQ(prior_.objects().size(), 1u) << now_s();
+  }
+}
+
+// At 5 Hz who goes away at 1.3 m/s is 0.26 m farther in each frame.
+TEST_F(PropagatedPriorTest, AtLowRatesDepthMayChangeByMore) {
+  prior_.detections = {seen(truth_)};
+  next();
+  for (int i = 0; i < 4; ++i) {
+    object_before_m_ = object_m_;
+    object_m_ += 0.26;
+    next({Vector2f::Zero(), Vector2f::Zero(), 0.0, 1});
+    EXPECT_NEAR(only_thing().depth_m(), object_m_, 1e-6) << i;
+  }
+}
+
 // A detector that runs beside the filter answers after the filter was reset.
 TEST_F(PropagatedPriorTest, AnswersOfFramesBeforeAResetAreIgnored) {
   for (int i = 0; i < 3; ++i) next();

@@ -25,7 +25,8 @@ struct Inertia {
   static constexpr double kCorrelated = 12.0;
 
   bool applies(const MotionPrior& prior) const noexcept {
-    return prior.predicted.has_value() && acceleration_m_s2 > 0 && angular_acceleration_rad_s2 > 0;
+    return prior.predicted.has_value() && prior.elapsed_s >= kLeastStep_s && acceleration_m_s2 > 0 &&
+           angular_acceleration_rad_s2 > 0;
   }
 
   /// @param current_from_reference  as found, the best explanation of what was seen
@@ -48,6 +49,7 @@ struct Inertia {
 
  private:
   static constexpr double kDegreesOfFreedom = 10.0;  // of Student's t: jolts are rare and then large
+  static constexpr double kLeastStep_s = 0.004;      // stamps that are nearer do not say when the images were taken
   static constexpr double kVelocityAge_s = 0.03;     // at 30 Hz, where both accelerations were measured
 
   /// Of Student's t, for what lies between the two: e² = xᵀ (found⁻¹ + velocity⁻¹)⁻¹ x, by the matrix inversion lemma.

@@ -22,10 +22,10 @@
 #include "stillpoint/core/small_linear_algebra.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
-#include "stillpoint/motion/kabsch.hpp"
 #include "stillpoint/motion/ransac.hpp"
 #include "stillpoint/motion/rigid/fixed_to_camera.hpp"
 #include "stillpoint/motion/rigid/inertia.hpp"
+#include "stillpoint/motion/rigid/minimal_sample.hpp"
 #include "stillpoint/motion/rigid/stationary_camera.hpp"
 #include "stillpoint/motion/rigid/support_constraints.hpp"
 #include "stillpoint/motion/rigid/support_problem.hpp"
@@ -34,8 +34,8 @@ namespace stillpoint {
 
 /// The ego-motion of `DefaultPolicies`. Two hypotheses compete: the motion expected from the past, pulled to the
 /// nearest consensus, and the best of many minimal samples, drawn by weight. Where they differ, the past wins as long
-/// as it explains enough (`consensus_inverted`): the majority may be a person before the camera. A stationary camera
-/// has no motion at all.
+/// as it explains enough (`consensus_inverted`): the majority may be a person before the camera. What the host tells of
+/// the motion is believed against more, if a consensus confirms it. A stationary camera has no motion at all.
 class SupportMotion {
  public:
   using Needs = Capabilities<capability::matches, capability::metric_depth>;
@@ -77,7 +77,8 @@ class SupportMotion {
     const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
     motion.pixel_sigma = noise.pixel_sigma;
     motion.depth_noise = noise.depth_scale;
-    past = refine(past.reference_from_current, problem, kAgainCutoffs);
+    const bool is_confirmed = prior.is_told && confirm(expected, problem, past);
+    if (!is_confirmed) past = refine(past.reference_from_current, problem, kAgainCutoffs);
     const Hypothesis sampled = best_sample(matches, past, problem, workspace);
     const bool differ =
         sampled.support > past.support &&
@@ -87,11 +88,13 @@ class SupportMotion {
     const bool is_inverted =
         differ && knows_past &&
         problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
-            past_preference * problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
+            (is_confirmed ? kToldPreference : past_preference) *
+                problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
     const Hypothesis& selected = sampled.support > past.support && !is_inverted ? sampled : past;
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
                         has_no_slow_motion(points, matches, camera, workspace);
-    const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, kAgainCutoffs, problem);
+    const span<const double> cutoffs = is_confirmed ? span<const double>(kNearCutoffs) : kAgainCutoffs;
+    const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, cutoffs, problem);
 
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
     const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
@@ -142,6 +145,8 @@ class SupportMotion {
  private:
   static constexpr double kConfidence = 0.9996;     // of not missing what explains more than the past
   static constexpr double kSameMotion_px = 1.0;     // hypotheses that move the matches less apart on average are one
+  static constexpr double kSameAsTold_px = 1.5;     // a motion that the host tells is confirmed by a consensus so near
+  static constexpr double kToldPreference = 0.1;    // then it is kept with less support than the past's
   static constexpr double kLeastSupport = 0.08;     // share of all weight that the motion must explain
   static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
   static constexpr double kMostPriorLoss = 12.6;    // 95 % quantile of χ²₆: what all points at full weight may cost
@@ -159,6 +164,15 @@ class SupportMotion {
     Matrix6d information = Matrix6d::Zero();
     double support = 0;
   };
+
+  /// Is there a consensus at a motion that the host tells?   It is `found` then.
+  template <class Camera>
+  static bool confirm(const Pose& told, const SupportProblem<Camera>& problem, Hypothesis& found) {
+    const Hypothesis near = refine(told, problem, kNearCutoffs);
+    const bool is_here = problem.distance_px(near.reference_from_current, told) < kSameAsTold_px;
+    if (is_here) found = near;
+    return is_here;
+  }
 
   /// Points, and the surfaces that were found in these frames, if there are any.
   template <class Camera>
@@ -248,7 +262,7 @@ class SupportMotion {
     Random random(options.seed);
     std::optional<Pose> best;
     for (std::size_t trial = 0; trial < trials; ++trial) {
-      const std::optional<Pose> pose = sample(matches, points, metric.first(count), random);
+      const std::optional<Pose> pose = motion_of_sample(matches, points, metric.first(count), random);
       if (!pose) continue;
       const double found = problem.point_support(*pose, to_beat);
       if (!(found > to_beat)) continue;
@@ -256,25 +270,6 @@ class SupportMotion {
       best = pose;
     }
     return best ? refine(*best, problem, kFarCutoffs) : Hypothesis{};
-  }
-
-  /// Three metric matches, each accepted with the probability of its weight.
-  std::optional<Pose> sample(const Matches& matches, span<const PointConstraint> points, span<const std::size_t> metric,
-                             Random& random) const {
-    constexpr int kAttempts = 100;
-    std::array<Vector3d, 3> current, reference;
-    std::array<std::size_t, 3> chosen{};
-    std::size_t count = 0;
-    for (int attempt = 0; attempt < kAttempts && count < 3; ++attempt) {
-      const std::size_t k = metric[random.index(metric.size())];
-      const bool again = std::find(chosen.begin(), chosen.begin() + count, k) != chosen.begin() + count;
-      if (again || !(random.uniform() < points[k].weight)) continue;
-      current[count] = matches.current.point[points[k].feature];
-      reference[count] = matches.reference.point[points[k].feature];
-      chosen[count++] = k;
-    }
-    if (count < 3) return std::nullopt;
-    return kabsch(span<const Vector3d>(current.data(), 3), span<const Vector3d>(reference.data(), 3));
   }
 
   static void set_covariance(const Matrix6d& information, Motion& motion) {
