@@ -10,6 +10,7 @@
 #include <new>
 #include <optional>
 #include <stillpoint/detectors/mobility_table.hpp>
+#include <stillpoint/pipeline/motion_expectation.hpp>
 #include <stillpoint/prior/propagated_prior.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <stillpoint_shim/types.hpp>

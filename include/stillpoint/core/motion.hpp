@@ -51,8 +51,8 @@ struct MotionPrior {
   std::optional<Pose> current_from_reference;
   bool stationary = true;  ///< the camera was at rest when it was seen last; robots are switched on at rest
   std::optional<Pose> predicted = std::nullopt;  ///< by the host, else by the mean velocity
-  double elapsed_s = 0;  ///< since the reference frame; positive with a prediction
-  bool is_told = false;  ///< `current_from_reference` is what the host says of this very motion
+  double elapsed_s = 0;                          ///< since the reference frame; positive with a prediction
+  bool is_told = false;                          ///< `current_from_reference` is what the host says of this very motion
 };
 
 }  // namespace stillpoint

@@ -588,7 +588,9 @@ TEST(SupportMotion, RefinesAgainstAllOlderFramesAtOnce) {
 TEST(SupportMotion, TheVelocityMovesOlderFramesToo) {
   LookedBack alone(60), agreed(60), pulled(60);
   alone.refine();
-  const auto prior = [](const Pose& pose) { return MotionPrior{std::nullopt, false, pose, 5e-3}; };  // sure to half a millimetre
+  const auto prior = [](const Pose& pose) {
+    return MotionPrior{std::nullopt, false, pose, 5e-3};
+  };  // sure to half a millimetre
   agreed.refine(prior(alone.motion.current_from_reference));
   EXPECT_LT(test::translation_error(agreed.motion.current_from_reference, alone.motion.current_from_reference), 1e-9);
   const Pose pull = test::pose_of({0.002, 0.001, 0}, {0.003, 0, 0.001});

@@ -343,6 +343,7 @@ TEST(ShimFilter, AnExpectedMotionArrives) {
     EXPECT_EQ(found.keep, Flags(expected.keep().begin(), expected.keep().end())) << frame;
     expect_same_weights(shim, expected, frame);
   }
+  EXPECT_FALSE(shim.expect_motion({1, 0, 0, 101, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1})) << "101 m in a frame";
   EXPECT_FALSE(shim.expect_motion({2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1})) << "scaled";
   EXPECT_FALSE(shim.expect_motion({1, 0, 0, std::nan(""), 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
 }
