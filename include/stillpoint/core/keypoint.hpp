@@ -29,9 +29,11 @@ template <class Keypoint, class = void>
 struct has_keypoint_traits : std::false_type {};
 template <class Keypoint>
 struct has_keypoint_traits<Keypoint,
-                           std::enable_if_t<std::is_convertible_v<
-                               decltype(keypoint_traits<Keypoint>::pixel(std::declval<const Keypoint&>())), Vector2f>>>
-    : std::true_type {};
+                           std::void_t<decltype(keypoint_traits<Keypoint>::pixel(std::declval<const Keypoint&>()))>> {
+  using Pixel = std::decay_t<decltype(keypoint_traits<Keypoint>::pixel(std::declval<const Keypoint&>()))>;
+  // Eigen lets a vector of doubles pass for one of floats, and fails within itself.
+  static constexpr bool value = std::is_convertible_v<Pixel, Vector2f> && !std::is_same_v<Pixel, Vector2d>;
+};
 
 template <class Range, class = void>
 struct is_contiguous : std::false_type {};
@@ -52,7 +54,8 @@ span<const Vector2f> read_pixels(const Keypoints& keypoints, std::vector<Vector2
     static_assert(detail::has_keypoint_traits<Keypoint>::value,
                   "stillpoint: specialise stillpoint::keypoint_traits<YourKeypoint> with static Vector2f pixel(const "
                   "YourKeypoint&); see core/keypoint.hpp");
-    for (const Keypoint& keypoint : keypoints) pixels.push_back(keypoint_traits<Keypoint>::pixel(keypoint));
+    if constexpr (detail::has_keypoint_traits<Keypoint>::value)
+      for (const Keypoint& keypoint : keypoints) pixels.push_back(keypoint_traits<Keypoint>::pixel(keypoint));
   }
   return pixels;
 }
