@@ -51,9 +51,6 @@ class Tracking {
   enum eTrackingState { NO_IMAGES_YET, NOT_INITIALIZED, OK };
   void GrabImageRGBD(cv::Mat imDepth, const double& timestamp);
   void Track();
-  void CreateMapInAtlas();
-  void Reset();
-  void ResetActiveMap();
   void ChangeCalibration();
 
   eTrackingState mState;
@@ -84,20 +81,8 @@ void Tracking::GrabImageRGBD(cv::Mat imDepth, const double& timestamp) {
   //@ src/Tracking.cc 4
 }
 
-void Tracking::CreateMapInAtlas() {
-  //@ src/Tracking.cc 5
-}
-
-void Tracking::Reset() {
-  //@ src/Tracking.cc 6
-}
-
-void Tracking::ResetActiveMap() {
-  //@ src/Tracking.cc 7
-}
-
 void Tracking::ChangeCalibration() {
-  //@ src/Tracking.cc 8
+  //@ src/Tracking.cc 5
 }
 
 }  // namespace ORB_SLAM3

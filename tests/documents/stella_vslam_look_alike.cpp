@@ -27,7 +27,6 @@ enum class tracker_state_t { Initializing, Tracking, Lost };
 
 struct tracking_module {
   tracker_state_t tracking_state_;
-  void reset();
 };
 
 struct frame_observation {
@@ -40,7 +39,6 @@ class system {
   ~system();
   frame_observation create_RGBD_frame(const cv::Mat& img_gray, const cv::Mat& img_depth, const double timestamp);
   void feed_frame(const std::shared_ptr<Eigen::Matrix4d>& cam_pose_wc);
-  void check_reset_request();
 
  private:
   camera::base* camera_ = nullptr;
@@ -65,11 +63,6 @@ void system::feed_frame(const std::shared_ptr<Eigen::Matrix4d>& cam_pose_wc) {
   if (tracker_->tracking_state_ == tracker_state_t::Tracking && cam_pose_wc) {
     //@ src/stella_vslam/system.cc 4
   }
-}
-
-void system::check_reset_request() {
-  tracker_->reset();
-  //@ src/stella_vslam/system.cc 5
 }
 
 }  // namespace stella_vslam
