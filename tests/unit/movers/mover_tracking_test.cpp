@@ -9,9 +9,9 @@
 
 #include <opencv2/features2d.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "stillpoint/evaluation/error_statistics.hpp"
@@ -192,46 +192,50 @@ TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASeco
 }
 
 /// A person walks by while the camera swings to the right by 0.45 rad in a third of a second.
-/// @param unseen  so many frames of the swing show no feature
-/// @return        the movers of the frame after them, and by how much the first is off across, metres
-std::pair<std::size_t, double> movers_after_a_swing(int unseen) {
-  synthetic::Scene scene = synthetic::crossing_people(vga(42));
-  scene.movers.erase(scene.movers.begin());
-  const Vector3d place = scene.camera_path.world_from_camera(0.0).translation();
-  scene.camera_path = {synthetic::Path({{0.0, place, 0.10, -0.19, 0},
-                                        {0.93, place, 0.10, -0.19, 0},
-                                        {1.27, place, 0.55, -0.19, 0},
-                                        {3, place, 0.55, -0.19, 0}},
-                                       synthetic::Blend::eased),
-                       {}};
-  SyntheticSequence sequence(scene);
-  SyntheticFrame frame;
-  FrameFilter<WithMovers<>> filter(scene.camera);
-  const auto orb = cv::ORB::create(800);
-  constexpr int kMiddle = 33;
-  const int first = kMiddle - unseen / 2, last = first + unseen - 1;
-  for (int f = 0;; ++f) {
-    sequence.render(f, frame);
-    std::vector<cv::KeyPoint> keypoints;
-    if (f < first || f > last) orb->detect(as_mat(frame.gray.view()), keypoints);
-    const FrameResult& result = filter.filter_frame(frame.view(), keypoints);
-    const std::size_t count = result.movers().size();
-    EXPECT_TRUE(f != first - 1 || count == 1) << f;
-    if (f <= last) continue;
-    const Vector3d truth = frame.world_from_camera.inverse() * frame.world_from_mover[0] * Vector3d(0, -1, 0);
-    return {count, count > 0 ? result.movers()[0].centroid.x() - truth.x() : 0.0};
+struct Swing {
+  /// @param unseen  so many frames of the swing show no feature
+  explicit Swing(int unseen) {
+    synthetic::Scene scene = synthetic::crossing_people(vga(42));
+    scene.movers.erase(scene.movers.begin());
+    const Vector3d place = scene.camera_path.world_from_camera(0.0).translation();
+    scene.camera_path = {synthetic::Path({{0.0, place, 0.10, -0.19, 0},
+                                          {0.93, place, 0.10, -0.19, 0},
+                                          {1.27, place, 0.55, -0.19, 0},
+                                          {3, place, 0.55, -0.19, 0}},
+                                         synthetic::Blend::eased),
+                         {}};
+    SyntheticSequence sequence(scene);
+    SyntheticFrame frame;
+    FrameFilter<WithMovers<>> filter(scene.camera);
+    const auto orb = cv::ORB::create(800);
+    constexpr int kMiddle = 33;
+    const int first = kMiddle - unseen / 2, last = first + unseen - 1;
+    for (int f = 0; f <= last + 1; ++f) {
+      sequence.render(f, frame);
+      std::vector<cv::KeyPoint> keypoints;
+      if (f < first || f > last) orb->detect(as_mat(frame.gray.view()), keypoints);
+      const FrameResult& result = filter.filter_frame(frame.view(), keypoints);
+      if (f != first - 1 && f != last + 1) continue;
+      std::vector<Mover>& movers = f < first ? before : after;
+      movers.assign(result.movers().begin(), result.movers().end());
+    }
   }
+
+  std::vector<Mover> before, after;  ///< the frames without features
+};
+
+TEST(MoverTracking, AFrameOrTwoThatAreNotJudgedEndNoIdentifier) {
+  const Swing swing(2);
+  ASSERT_FALSE(swing.before.empty());
+  const std::uint32_t id = swing.before[0].id;
+  EXPECT_TRUE(std::any_of(swing.after.begin(), swing.after.end(), [&](const Mover& mover) { return mover.id == id; }));
 }
 
-// The swing makes 1.3 rad/s, in which the person, 3 m away, goes by 13 cm across the view in one frame.
-TEST(MoverTracking, OverAFrameThatIsNotJudgedTheCameraGoesOn) {
-  const auto [count, off_m] = movers_after_a_swing(2);
-  ASSERT_EQ(count, 1u);
-  EXPECT_NEAR(off_m, 0.0, 0.15);
-}
-
-TEST(MoverTracking, OverManyFramesThatAreNotJudgedNobodyKnowsWhereAnObjectIs) {
-  EXPECT_EQ(movers_after_a_swing(11).first, 0u);
+// Where the camera looks after eleven nobody knows: what was told before lay 1.4 m beside the person, on a wall.
+TEST(MoverTracking, AfterManyFramesThatAreNotJudgedNobodyKnowsWhereAnObjectIs) {
+  const Swing swing(11);
+  EXPECT_FALSE(swing.before.empty());
+  EXPECT_TRUE(swing.after.empty());
 }
 
 TEST(MoverTracking, NothingMovesInAStaticRoom) {
