@@ -51,6 +51,7 @@ constexpr const char* explained(stillpoint::Warning warning) noexcept {
     case Warning::times_far_apart: return "Nearly every frame comes too late for the last one, or before it.";
     case Warning::depth_unsynchronised: return "Depth images are older or newer than their images: pair them by time.";
     case Warning::depth_shape_differs: return "The depth image has another shape than the image: is it aligned?";
+    case Warning::principal_point_aside: return "The principal point is far from the middle of the image.";
     case Warning::nothing_fits: return "Hardly a frame can be judged: are depth and image aligned?";
   }
   return "";

@@ -86,7 +86,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       expectation_.advance(frame.timestamp_s, result_.motion_);
     }
     if (!judged(status)) result_.motion_.status = status;
-    use_check_.observe(status, frame, pixels_, result_.depth_m_, result_.motion_);
+    use_check_.observe(status, frame, camera, pixels_, result_.depth_m_, result_.motion_);
     result_.warnings_.add(use_check_.warnings());
     if (depth_delay.frames() != 0.0) result_.warnings_.add(Warning::depth_unsynchronised);
     result_.hint_ = UseCheck::hint(status, result_.warnings_);

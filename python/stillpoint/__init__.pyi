@@ -52,6 +52,7 @@ class FrameWarning(enum.IntEnum):
     nothing_fits = 10
     depth_unsynchronised = 11
     depth_shape_differs = 12
+    principal_point_aside = 13
 
 class Verdict(enum.IntEnum):
     """What a feature is, as far as can be told."""

@@ -27,8 +27,9 @@ enum class Warning : std::uint8_t {
   nothing_fits,              ///< hardly a frame can be judged
   depth_unsynchronised,      ///< depth is older or newer than its image; the filter uses moved depth
   depth_shape_differs,       ///< its width by its height is not the image's
+  principal_point_aside,     ///< it is far from the image's middle, as that of another resolution is
 };
-constexpr std::size_t kWarningCount = 13;
+constexpr std::size_t kWarningCount = 14;
 
 /// The warning as it is written in files.
 constexpr const char* to_string(Warning warning) noexcept {
@@ -46,6 +47,7 @@ constexpr const char* to_string(Warning warning) noexcept {
     case Warning::nothing_fits: return "nothing_fits";
     case Warning::depth_unsynchronised: return "depth_unsynchronised";
     case Warning::depth_shape_differs: return "depth_shape_differs";
+    case Warning::principal_point_aside: return "principal_point_aside";
   }
   return "?";
 }

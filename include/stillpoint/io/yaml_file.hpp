@@ -42,7 +42,7 @@ class YamlFile {
   /// @param name  of the node, for the message
   double finite(const YamlNode& node, const std::string& name, const std::string& expected) const {
     const std::optional<double> value = node.number();
-    if (!value) fail(node, name, "is not a number", expected);
+    if (!value) fail(node, name, is_what(node), expected);
     if (!std::isfinite(*value)) fail(node, name, "is not finite", expected);
     return *value;
   }
@@ -81,6 +81,14 @@ class YamlFile {
   }
 
  private:
+  /// What stands where a number was expected.
+  static std::string is_what(const YamlNode& node) {
+    if (node.kind == YamlNode::Kind::list) return "is a list";
+    if (node.kind == YamlNode::Kind::map) return "is a map";
+    if (node.text.empty()) return "is empty";
+    return node.is_quoted ? "is \"" + node.text + "\", in quotes" : "is '" + node.text + "'";
+  }
+
   static std::string read(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) throw Error(file.string() + ": no such file");

@@ -5,6 +5,7 @@
 // Is the filter used as it is meant?   What is improbable in one frame and wrong in many.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "stillpoint/core/frame.hpp"
@@ -25,14 +26,16 @@ class UseCheck {
   /// A frame was filtered.
   /// @param pixels   its keypoints
   /// @param depth_m  theirs, 0 for none; of a frame that was judged
-  void observe(Status status, const FrameView& frame, span<const Vector2f> pixels, span<const double> depth_m,
-               const Motion& motion) {
+  template <class Camera>
+  void observe(Status status, const FrameView& frame, const Camera& camera, span<const Vector2f> pixels,
+               span<const double> depth_m, const Motion& motion) {
     const bool is_time_wrong =
         status == Status::time_gap || status == Status::out_of_order || status == Status::duplicate_frame;
     if (status == Status::first_frame || (FrameCheck::rejects(status) && !is_time_wrong)) return;
     times_far_apart_.count(is_time_wrong);
     if (is_time_wrong) return;
     nothing_fits_.count(!judged(status) && status != Status::no_keypoints);
+    principal_point_aside_.count(is_aside(camera.cx(), camera.width()) && is_aside(camera.cy(), camera.height()));
     count_places(frame.image().width, frame.image().height, pixels);
     depth_shape_differs_.count(!frame.depth.empty() && !have_same_shape(frame.depth.image, frame.image()));
     if (frames_++ % kLookEvery == 0) {
@@ -68,6 +71,7 @@ class UseCheck {
     add(scale_differs_, Warning::scale_differs);
     add(in_one_quarter_, Warning::keypoints_in_one_quarter);
     add(outside_, Warning::keypoints_outside);
+    add(principal_point_aside_, Warning::principal_point_aside);
     add(times_far_apart_, Warning::times_far_apart);
     add(nothing_fits_, Warning::nothing_fits);
     return found;
@@ -100,6 +104,8 @@ class UseCheck {
       return "Half of the keypoints are outside of the image: are they of another resolution?";
     if (warnings.has(Warning::keypoints_in_one_quarter))
       return "All keypoints are in one quarter of the image: are they of a smaller one?";
+    if (warnings.has(Warning::principal_point_aside))
+      return "The principal point is far from the middle of the image: are the intrinsics those of this resolution?";
     if (warnings.has(Warning::depth_shape_differs))
       return "The depth image has another shape than the image: is it aligned to the image?";
     if (warnings.has(Warning::depth_turned_over))
@@ -125,6 +131,7 @@ class UseCheck {
   static constexpr double kFast_m = 2.0;        // 60 m/s at 30 Hz, 20 m/s at 10 Hz
   static constexpr double kOtherScale = 2.0;    // 5000 for 1000 is 5
   static constexpr double kLeastStep_m = 0.01;  // smaller ones are noise
+  static constexpr double kAside = 0.15;        // of the size; 1280 x 720 for 848 x 480 is 0.25 in x and y, a lens 0.05
   static constexpr int kMany = 20;              // frames in a row that look wrong
   static constexpr int kLookEvery = 4;          // frame, at the depth image as a whole
   static constexpr std::size_t kFewest = 30;    // keypoints that say something
@@ -139,6 +146,11 @@ class UseCheck {
    private:
     int many_, frames_ = 0;
   };
+
+  /// Intrinsics of another resolution are off in x and in y, a cropped image mostly in one of them.
+  static bool is_aside(double principal_px, int size_px) noexcept {
+    return std::abs(principal_px / size_px - 0.5) > kAside;
+  }
 
   void count_places(int width, int height, span<const Vector2f> pixels) noexcept {
     if (pixels.size() < kFewest) return;
@@ -166,7 +178,7 @@ class UseCheck {
   }
 
   Doubt depth_too_near_{kMany}, motion_too_fast_{kMany}, scale_differs_{kMany}, in_one_quarter_{kMany}, outside_{kMany},
-      times_far_apart_{kMany}, nothing_fits_{kMany}, depth_shape_differs_{kMany};
+      times_far_apart_{kMany}, nothing_fits_{kMany}, depth_shape_differs_{kMany}, principal_point_aside_{kMany};
   Doubt depth_turned_over_{kMany / kLookEvery};
   unsigned frames_ = 0;
 };

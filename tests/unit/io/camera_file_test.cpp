@@ -96,10 +96,10 @@ TEST(ReadCamera, NamesAMissingField) {
 }
 
 TEST(ReadCamera, NamesAValueThatMakesNoSense) {
-  EXPECT_EQ(message_of(yaml({{"fx", "wide"}})), "fx is not a number, expected a positive focal length in pixels");
+  EXPECT_EQ(message_of(yaml({{"fx", "wide"}})), "fx is 'wide', expected a positive focal length in pixels");
   EXPECT_EQ(message_of(yaml({{"fy", "-5"}})), "fy is -5, expected a positive focal length in pixels");
   EXPECT_EQ(message_of(yaml({{"cx", ".Nan"}})), "cx is not finite, expected a finite principal point in pixels");
-  EXPECT_EQ(message_of(yaml({{"cy", "[1, 2]"}})), "cy is not a number, expected a finite principal point in pixels");
+  EXPECT_EQ(message_of(yaml({{"cy", "[1, 2]"}})), "cy is a list, expected a finite principal point in pixels");
   EXPECT_EQ(message_of(yaml({{"width", "640.5"}})),
             "width is 640.5, expected a whole number of pixels from 1 to 65535");
   EXPECT_EQ(message_of(yaml({{"height", "0"}})), "height is 0, expected a whole number of pixels from 1 to 65535");
@@ -184,7 +184,7 @@ TEST(ReadCamera, TheLineOfAWrongFieldIsNamed) {
   const TemporaryFolder folder;
   const auto file = folder.write("camera.yaml", "fx: 5\n\nfy: wide\n");
   EXPECT_EQ(error_of([&] { read_camera(file); }),
-            file.string() + ":3: fy is not a number, expected a positive focal length in pixels");
+            file.string() + ":3: fy is 'wide', expected a positive focal length in pixels");
 }
 
 // As robots have it, and as OpenCV writes it.

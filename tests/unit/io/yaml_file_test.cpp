@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "unit/error_of.hpp"
@@ -76,16 +77,20 @@ TEST_F(YamlFileTest, WhatIsNoMapOfNamesIsRefused) {
 }
 
 TEST_F(YamlFileTest, NumbersAndWordsAreToldApart) {
-  const YamlFile fields = read("a: 5\nb: 5.\nc: -1.5e-3\nd: '5'\ne: word\nf: +2\ng: .inf\nh: .Nan\ni:\n");
+  const YamlFile fields =
+      read("a: 5\nb: 5.\nc: -1.5e-3\nd: '5'\ne: word\nf: +2\ng: .inf\nh: .Nan\ni:\nj: [1]\nk: {l: 1}\n");
   EXPECT_EQ(fields.number("a", "x"), 5.0);
   EXPECT_EQ(fields.number("b", "x"), 5.0);
   EXPECT_EQ(fields.number("c", "x"), -1.5e-3);
   EXPECT_EQ(fields.number("f", "x"), 2.0);
   EXPECT_EQ(fields.text("d", "x"), "5");
   EXPECT_EQ(fields.text("e", "x"), "word");
-  for (const char* field : {"d", "e", "i"})
-    EXPECT_NE(error_of([&] { fields.number(field, "x"); }).find(std::string(field) + " is not a number, expected x"),
-              std::string::npos);
+  const std::pair<const char*, const char*> no_numbers[] = {
+      {"d", "is \"5\", in quotes"}, {"e", "is 'word'"}, {"i", "is empty"}, {"j", "is a list"}, {"k", "is a map"}};
+  for (const auto& [field, is_what] : no_numbers)
+    EXPECT_NE(error_of([&] { fields.number(field, "x"); }).find(std::string(field) + ' ' + is_what + ", expected x"),
+              std::string::npos)
+        << field;
   for (const char* field : {"g", "h"})
     EXPECT_NE(error_of([&] { fields.number(field, "x"); }).find("is not finite"), std::string::npos);
   EXPECT_NE(error_of([&] { fields.text("a", "x"); }).find(":1: a is not a word"), std::string::npos);

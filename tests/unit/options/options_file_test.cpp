@@ -190,7 +190,7 @@ TEST_F(OptionsFile, ErrorsNameFileLineOptionFoundAndExpected) {
             name + ":3: gait is unknown, expected one of frame_check, ");
   EXPECT_EQ(error("gate: 3\n"), name + ":3: gate is no map, expected options as name: value, one a line and indented");
   EXPECT_EQ(error("gate:\n   false_positive_rate: high\n"),
-            name + ":4: gate.false_positive_rate is not a number, expected a number from 0.000001 to 0.5");
+            name + ":4: gate.false_positive_rate is 'high', expected a number from 0.000001 to 0.5");
   EXPECT_EQ(error("gate:\n   false_positive_rate: 0.\n"),
             name + ":4: gate.false_positive_rate is 0, expected a number from 0.000001 to 0.5");
   EXPECT_EQ(error("gate:\n   false_positive_rate: 5\n"),

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/motion.hpp"
@@ -33,10 +34,11 @@ class UseCheckTest : public testing::Test {
     motion.metric = true;
     motion.current_from_reference.translation().z() = step_m;
     const FrameView frame(gray_.view(), with_depth ? DepthView(depth_.view()) : DepthView(), 0.0);
-    for (int i = 0; i < frames; ++i) check_.observe(status, frame, {}, {}, motion);
+    for (int i = 0; i < frames; ++i) check_.observe(status, frame, camera_, {}, {}, motion);
   }
   bool warns(Warning warning) const { return check_.warnings().has(warning); }
 
+  Camera camera_{60, 60, 32, 24, 64, 48};
   UseCheck check_;
   ImageBuffer gray_, depth_;
 };
@@ -48,6 +50,28 @@ TEST_F(UseCheckTest, MetresFromFrameToFrameAreSaidAfterTwentyFrames) {
   EXPECT_TRUE(warns(Warning::motion_too_fast));
   observe(1, Status::ok, 0.1);
   EXPECT_FALSE(warns(Warning::motion_too_fast)) << "one usual step takes two of them back";
+}
+
+// Limits of an image of 64 x 48: 22.4 and 41.6 in x, 16.8 and 31.2 in y (half of the size, and 15 % of it to each
+// side).
+TEST_F(UseCheckTest, IntrinsicsOfAnotherResolutionAreSaidAfterTwenty) {
+  camera_ = Camera(60, 60, 42, 31, 64, 48);
+  observe(30, Status::ok);
+  EXPECT_FALSE(warns(Warning::principal_point_aside)) << "in x alone: an image that was cut";
+  camera_ = Camera(60, 60, 41, 32, 64, 48);
+  observe(30, Status::ok);
+  EXPECT_FALSE(warns(Warning::principal_point_aside)) << "in y alone";
+  camera_ = Camera(60, 60, 42, 32, 64, 48);
+  observe(19, Status::no_consensus);
+  EXPECT_FALSE(warns(Warning::principal_point_aside));
+  observe(1, Status::no_consensus);
+  EXPECT_TRUE(warns(Warning::principal_point_aside)) << "those of a larger image";
+  camera_ = Camera(60, 60, 32, 24, 64, 48);
+  observe(10, Status::ok);
+  EXPECT_FALSE(warns(Warning::principal_point_aside)) << "set right";
+  camera_ = Camera(60, 60, 22, 16, 64, 48);
+  observe(20, Status::ok);
+  EXPECT_TRUE(warns(Warning::principal_point_aside)) << "those of a smaller image";
 }
 
 // Image 64 x 48 is 4 : 3, as 32 x 24; depth of a 16 : 9 sensor is not.

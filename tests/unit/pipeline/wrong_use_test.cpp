@@ -104,6 +104,20 @@ TEST(WrongUse, DepthOfAWiderSensor) {
   expect_hint(said, "aligned");
 }
 
+// What a driver publishes of its full resolution, beside images of half of it.
+TEST(WrongUse, IntrinsicsOfTwiceTheResolution) {
+  bool is_given = false;
+  const Said said = after_a_second([&is_given](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
+    const Camera& own = filter.camera;
+    if (!is_given)
+      filter.camera = Camera(2 * own.fx(), 2 * own.fy(), 2 * own.cx(), 2 * own.cy(), own.width(), own.height());
+    is_given = true;
+    return filter.filter_frame({frame.gray, frame.view(), frame.time_s}, frame.keypoints);
+  });
+  EXPECT_TRUE(said.warnings.has(Warning::principal_point_aside));
+  expect_hint(said, "intrinsics");
+}
+
 TEST(WrongUse, SixteenBitDepthWithoutItsUnit) {
   const Said said = after_a_second([](FrameFilter<>& filter, const Handed& frame) -> const FrameResult& {
     return filter.filter_frame({frame.gray, frame.depth, frame.time_s}, frame.keypoints);
