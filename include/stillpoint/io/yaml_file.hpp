@@ -81,7 +81,7 @@ class YamlFile {
   }
 
  private:
-  /// What stands where a number was expected.
+  /// What is there in place of a number.
   static std::string is_what(const YamlNode& node) {
     if (node.kind == YamlNode::Kind::list) return "is a list";
     if (node.kind == YamlNode::Kind::map) return "is a map";
