@@ -7,6 +7,8 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -19,6 +21,7 @@
 #include "image_sources.hpp"
 #include "options.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/camera_file.hpp"
 #include "stillpoint/io/euroc_sequence.hpp"
 #include "stillpoint/io/image_folder.hpp"
@@ -32,10 +35,16 @@ namespace stillpoint_run {
 class StereoSource : public FrameSource {
  public:
   StereoSource(stillpoint::Camera camera, double baseline_m)
-      : camera_(std::move(camera)), depth_(camera_, baseline_m) {}
+      : camera_(std::move(camera)), depth_(camera_, baseline_m, depth_options(camera_, baseline_m)) {}
 
   const stillpoint::Camera& camera() const override { return camera_; }
   std::optional<stillpoint::StereoNoise> stereo_noise() const override { return depth_.noise(); }
+  std::vector<std::string> assumptions() const override {
+    const double nearest_m = depth_.options().nearest_m, usual_m = stillpoint::StereoDepth::Options{}.nearest_m;
+    if (nearest_m == usual_m) return {};
+    return {"nothing is nearer than " + stillpoint::option_text(std::round(nearest_m * 100) / 100) +
+            " m: at that depth the disparity is as wide as the image"};
+  }
 
  protected:
   /// @param images  rectified
@@ -50,6 +59,16 @@ class StereoSource : public FrameSource {
   }
 
  private:
+  /// A pair that is far apart with a narrow view cannot see as near as is usual: the nearest depth that it can.
+  static stillpoint::StereoDepth::Options depth_options(const stillpoint::Camera& camera, double baseline_m) {
+    constexpr double kStep_px = 16.0;  // what StereoDepth counts disparities in
+    const double widest_px = kStep_px * std::ceil(camera.width() / kStep_px - 1.0), rounded_up = 1.0 + 1e-9;
+    stillpoint::StereoDepth::Options options;
+    if (widest_px > 0)
+      options.nearest_m = std::max(options.nearest_m, camera.fx() * baseline_m / widest_px * rounded_up);
+    return options;
+  }
+
   stillpoint::Camera camera_;
   stillpoint::StereoDepth depth_;
   cv::Mat right_gray_;
@@ -101,7 +120,9 @@ class StereoFolderSource : public StereoSource {
   std::optional<std::size_t> size() const override { return frames_.size(); }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return kNoGroundTruth; }
   std::vector<std::string> assumptions() const override {
-    return list_.rate_is_assumed ? std::vector{rate_words()} : std::vector<std::string>();
+    std::vector<std::string> assumed = StereoSource::assumptions();
+    if (list_.rate_is_assumed) assumed.push_back(rate_words());
+    return assumed;
   }
 
   std::optional<SourceFrame> load(std::size_t index) override {

@@ -143,6 +143,15 @@ TEST_F(Inputs, RectifiedPairIsARunWithDepth) {
   EXPECT_EQ(report()["frames_without_pose"], 0);
 }
 
+// At half a metre the disparity would be 131.25 x 1.0 / 0.5 = 262.5 px, in an image of 160. Counted in steps of 16 px,
+// 144 are less than 160: 131.25 / 144 = 0.911 m.
+TEST_F(Inputs, RectifiedPairThatIsFarApartSeesNothingNear) {
+  write_pair(2, "baseline_m: 1.0\n");
+  expect_run(pair_arguments() + " --fps 30");
+  EXPECT_TRUE(says("nothing is nearer than 0.91 m")) << said;
+  EXPECT_EQ(report()["assumptions"].size(), 1u);
+}
+
 TEST_F(Inputs, CameraOfAFolderOfImagesMayLieInIt) {
   write_pair(2);
   fs::rename(folder / "pair.yaml", left / "camera.yaml");

@@ -11,18 +11,10 @@
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/mask.hpp"
 #include "stillpoint/opencv.hpp"
 
 namespace stillpoint {
-
-/// @param user  begins the message
-/// @param mask  what is looked at
-/// @throws Error unless the mask is gray8
-inline void require_mask(const char* user, const ImageView& mask) {
-  if (mask.empty() || mask.format != PixelFormat::gray8)
-    throw Error(std::string(user) + ": the mask is " + (mask.empty() ? "empty" : "no gray8 image") +
-                ", expected gray8, one byte per pixel");
-}
 
 /// @param user   begins the message
 /// @param mask   what is looked at

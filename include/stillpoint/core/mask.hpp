@@ -2,18 +2,29 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Painting masks: gray8 images in which 255 keeps and 0 drops, and nothing lies between.
+// Masks: gray8 images in which 255 keeps and 0 drops, and nothing lies between.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 
+#include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
 
 namespace stillpoint {
 
 inline constexpr std::uint8_t kMaskKeeps = 255, kMaskDrops = 0;
+
+/// @param user  begins the message
+/// @param mask  what is looked at
+/// @throws Error unless the mask is gray8
+inline void require_mask(const char* user, const ImageView& mask) {
+  if (mask.empty() || mask.format != PixelFormat::gray8)
+    throw Error(std::string(user) + ": the mask is " + (mask.empty() ? "empty" : "no gray8 image") +
+                ", expected gray8, one byte per pixel");
+}
 
 /// Makes a mask of this size that keeps everything. Its memory is reused.
 inline void keep_everywhere(int width, int height, ImageBuffer& mask) {

@@ -32,7 +32,8 @@ struct LabelMap {
 
 /// The classes of scores 1xCxhxw. C == 1 or 2: one class, 0, where it passes one half (C == 2: against the background
 /// in channel 0). C == nc: the best channel; C == nc + 1: the same, with the background in channel 0, which the class
-/// list does not have. Values outside 0 to 1 are logarithms: sigmoid or softmax first.
+/// list does not have. Values far outside 0 to 1 are logarithms: sigmoid or softmax first. An enlarged map leaves 0 to
+/// 1 by rounding, or by the overshoot of a cubic. A cell of NaN has no class.
 inline LabelMap label_map_from_scores(const Tensor& output, const DecodeSettings& settings) {
   const TensorShape& shape = output.shape;
   require_shape(
@@ -42,8 +43,9 @@ inline LabelMap label_map_from_scores(const Tensor& output, const DecodeSettings
   const int channels = shape[1];
   LabelMap map{shape[3], shape[2], {}, {}};
   const std::size_t cells = static_cast<std::size_t>(shape[2]) * static_cast<std::size_t>(shape[3]);
-  const bool probabilities =
-      std::all_of(output.data, output.data + shape.count(), [](float value) { return value >= 0.0f && value <= 1.0f; });
+  constexpr float kOvershoot = 0.25f;
+  const bool probabilities = std::none_of(output.data, output.data + shape.count(),
+                                          [](float value) { return value < -kOvershoot || value > 1.0f + kOvershoot; });
   map.label.assign(cells, LabelMap::kNothing);
   map.score.assign(cells, 0.0f);
   for (std::size_t i = 0; i < cells; ++i) {
@@ -51,18 +53,19 @@ inline LabelMap label_map_from_scores(const Tensor& output, const DecodeSettings
     const auto channel = [&](int c) { return scores[static_cast<std::size_t>(c) * cells]; };
     if (channels <= 2) {
       const float value = channels == 1 ? channel(0) : probabilities ? channel(1) : channel(1) - channel(0);
-      map.score[i] = probabilities ? value : sigmoid(value);
+      map.score[i] = probabilities ? std::min(value, 1.0f) : sigmoid(value);
       if (map.score[i] > 0.5f) map.label[i] = 0;
       continue;
     }
     const BestClass best = best_class(scores, channels, static_cast<std::ptrdiff_t>(cells));
-    map.score[i] = best.score;
+    map.score[i] = std::min(best.score, 1.0f);
     if (!probabilities) {
       float sum = 0;
       for (int c = 0; c < channels; ++c) sum += std::exp(channel(c) - best.score);
       map.score[i] = 1.0f / sum;
     }
-    map.label[i] = static_cast<std::int16_t>(channels == settings.class_count ? best.label : best.label - 1);
+    if (!std::isnan(map.score[i]))
+      map.label[i] = static_cast<std::int16_t>(channels == settings.class_count ? best.label : best.label - 1);
   }
   return map;
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/detectors/class_list.hpp"
@@ -38,9 +39,10 @@ class NetworkDecoder {
 
   /// @param outputs  of a run on any image, an empty one too
   /// @throws Error if layout or classes are neither set nor told by the shapes, or the shapes contradict them; if there
-  ///         is no output, or the input's size is none.
+  ///         is no output, the input's size is none, or an option that is a share or a probability is not 0 to 1.
   NetworkDecoder(const DetectorOptions& options, const InputSize& input, span<const Tensor> outputs)
       : options_(options), layout_(options.layout) {
+    require_options(options);
     require_input(input);
     require_outputs(outputs);
     settings_.input = input;
@@ -148,6 +150,15 @@ class NetworkDecoder {
     if (layout_ == DetectorLayout::ssd && !background) return label - 1;
     if (layout_ == DetectorLayout::mask_rcnn && background) return label + 1;
     return label;
+  }
+
+  static void require_options(const DetectorOptions& options) {
+    const std::pair<const char*, float> shares[] = {{"lowest_confidence", options.lowest_confidence},
+                                                    {"highest_overlap", options.highest_overlap},
+                                                    {"smallest_part", options.smallest_part}};
+    for (const auto& [name, value] : shares)
+      if (!(value >= 0.0f && value <= 1.0f))
+        throw Error(std::string(name) + " is " + option_text(value) + ", expected 0 to 1");
   }
 
   static void require_input(const InputSize& input) {

@@ -31,7 +31,7 @@ class NetworkInput {
   /// @return how the image lies in the input
   /// @throws Error if it is empty or of another format.
   Letterbox fill(const ImageView& image) {
-    if (image.empty()) throw Error("detector: found an empty image, expected BGR or gray of 8 bit");
+    if (image.empty()) throw Error("detector: found no image, or one of another format, expected BGR or gray of 8 bit");
     if (image.format != PixelFormat::bgr8 && image.format != PixelFormat::gray8)
       throw Error("detector: found an image of another format, expected BGR or gray of 8 bit");
     const Letterbox letterbox({image.width, image.height}, size_, preprocess_.fit);

@@ -73,12 +73,20 @@ inline AlignmentResult align_points(span<const Vector3d> source, span<const Vect
     target_mean += target[i] / count;
   }
   Matrix3d covariance = Matrix3d::Zero();
-  double source_variance = 0.0;
+  double source_variance = 0.0, target_variance = 0.0;
   for (std::size_t i = 0; i < source.size(); ++i) {
     const Vector3d from_mean = source[i] - source_mean;
     covariance += (target[i] - target_mean) * from_mean.transpose() / count;
     source_variance += from_mean.squaredNorm() / count;
+    target_variance += (target[i] - target_mean).squaredNorm() / count;
   }
+  // Points that coincide differ from their mean by its rounding, some 1e-16 of their distance from the origin.
+  constexpr double kCoincide = 1e-10;
+  const auto coincide = [](double variance, const Vector3d& mean) {
+    return !(variance > kCoincide * kCoincide * mean.squaredNorm());
+  };
+  if (coincide(source_variance, source_mean) || coincide(target_variance, target_mean))
+    return fail(AlignmentStatus::collinear);
 
   const Eigen::JacobiSVD<Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Vector3d& singular = svd.singularValues();

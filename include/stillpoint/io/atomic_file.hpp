@@ -20,14 +20,19 @@ namespace stillpoint {
 /// Writes to a temporary file beside the target ("report.json.partial0") and gives it the target's name on `commit()`.
 /// A process that dies, or an error on the way, leaves the target as it was: missing, or the old file. (The file is not
 /// forced to the disk: this does not guard against a power cut.) Without `commit()` the destructor removes what was
-/// written.
+/// written. Of a symbolic link, the file that it names is written.
 class AtomicFile {
  public:
-  /// @throws Error if no file can be made in the target's folder, or the target is a folder.
+  /// @throws Error if no file can be made in the target's folder, or the target is a folder, a device or a pipe.
   explicit AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
     std::error_code ignored;
     if (std::filesystem::is_directory(target_, ignored))
       throw Error(target_.string() + ": found a folder, expected a file to write");
+    if (std::filesystem::exists(target_, ignored)) {  // a rename would replace what is no file, and a link
+      if (!std::filesystem::is_regular_file(target_, ignored))
+        throw Error(target_.string() + ": found a device or a pipe, expected a file to write");
+      if (std::filesystem::is_symlink(target_, ignored)) target_ = std::filesystem::canonical(target_);
+    }
     // A file that exists may belong to another process, so it is never opened: the next number is tried.
     for (std::size_t attempt = 0; file_ == nullptr; ++attempt) {
       temporary_ = target_;

@@ -37,7 +37,9 @@ inline bool is_whole_image(std::string_view bytes) {
 /// Reads an image as it is in the file: not turned by what a camera noted in it.
 /// @param flags  `cv::IMREAD_COLOR`, `cv::IMREAD_UNCHANGED`, ...
 /// @return        never empty.
-/// @throws Error if the file is missing, breaks off, or is no image.
+/// @throws Error if the file is missing, breaks off, or is no image; unless all of it was asked for, if it has more
+/// than
+///         8 bit: of 10 in 16, OpenCV would keep the upper 8, almost black.
 inline cv::Mat read_image(const std::filesystem::path& file, int flags) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file.string() + ": no such file");
@@ -47,13 +49,16 @@ inline cv::Mat read_image(const std::filesystem::path& file, int flags) {
   std::string reason;
   if (!bytes.empty() && detail::is_whole_image(bytes)) {
     try {
-      if (flags != cv::IMREAD_UNCHANGED) flags |= cv::IMREAD_IGNORE_ORIENTATION;  // UNCHANGED (-1) implies it
+      if (flags != cv::IMREAD_UNCHANGED)  // (-1) implies both
+        flags |= cv::IMREAD_IGNORE_ORIENTATION | cv::IMREAD_ANYDEPTH;
       image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), flags);
     } catch (const cv::Exception& error) {
       reason = " (" + error.err + ")";
     }
   }
   if (image.empty()) throw Error(file.string() + ": cannot be read, expected a whole PNG or JPEG image" + reason);
+  if (flags != cv::IMREAD_UNCHANGED && image.depth() != CV_8U)
+    throw Error(file.string() + ": found an image of more than 8 bit, expected 8");
   return image;
 }
 

@@ -11,6 +11,7 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/mask.hpp"
 #include "stillpoint/core/span.hpp"
 
 namespace stillpoint {
@@ -30,8 +31,10 @@ inline bool mask_drops(const ImageView& mask, const Vector2f& pixel) noexcept {
 }
 
 /// One byte per feature: 1 where the mask at its rounded pixel is not 0. What lies outside of the mask is kept.
-/// @param mask  gray8, 255 keeps, 0 drops
+/// @param mask  gray8, 255 keeps, 0 drops; an empty one drops nothing
+/// @throws Error if the mask is of another format.
 inline void flags_from_mask(const ImageView& mask, span<const Vector2f> pixels, std::vector<std::uint8_t>& keep) {
+  if (!mask.empty()) require_mask("flags_from_mask", mask);
   keep.resize(pixels.size());
   for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = mask_drops(mask, pixels[i]) ? 0 : 1;
 }

@@ -12,6 +12,7 @@
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/mask.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 
 namespace stillpoint {
@@ -19,9 +20,11 @@ namespace stillpoint {
 /// @param depth   16 bit or float, of any size with the mask's field of view
 /// @param mask    gray8, 255 keeps, 0 drops; an empty one drops nothing
 /// @param masked  becomes an image of the depth's size and format
+/// @throws Error if the mask is of another format.
 inline void masked_depth(const DepthView& depth, const ImageView& mask, ImageBuffer& masked) {
   masked.assign(depth.image);
   if (mask.empty() || depth.empty()) return;
+  require_mask("masked_depth", mask);
   const DepthScale to_mask(depth.image, mask);  // the same map the other way round
   const std::size_t bytes = bytes_per_pixel(depth.image.format);
   for (int v = 0; v < depth.image.height; ++v) {

@@ -50,6 +50,33 @@ TEST(DecodeSegmentation, OneChannelOutsideZeroToOneIsALogit) {
   EXPECT_NEAR(found[0].score, 0.75f, 1e-5f);
 }
 
+// A linear enlargement in floats leaves 0 to 1 by one rounding, a cubic one by up to a seventh; a broken cell is NaN.
+TEST(DecodeSegmentation, OneCellBesideZeroToOneLeavesTheOthersProbabilities) {
+  for (const float odd : {1.0f + 1.2e-7f, -1e-7f, 1.14f, -0.14f, std::numeric_limits<float>::quiet_NaN()}) {
+    MadeTensor one({1, 1, 10, 20});
+    fill(one, 0, 2, 3, 6, 9, 0.8f);
+    one.at({0, 0, 0, 0}) = odd > 1 ? 0.0f : odd;
+    one.at({0, 0, 4, 4}) = odd > 1 ? odd : 0.8f;
+    std::vector<RawDetection> found = parts(one);
+    ASSERT_EQ(found.size(), 1u) << odd;
+    expect_box(found[0], 20, 30, 60, 90);
+    EXPECT_NEAR(found[0].score, 0.8f, 0.01f) << odd;
+    EXPECT_LE(found[0].score, 1.0f) << odd;
+
+    MadeTensor three({1, 3, 10, 20});
+    fill(three, 0, 0, 0, 20, 10, 1.0f);
+    fill(three, 0, 2, 3, 6, 9, 0.1f);
+    fill(three, 2, 2, 3, 6, 9, 0.9f);
+    three.at({0, 0, 0, 0}) = odd;
+    found = parts(three);
+    ASSERT_EQ(found.size(), 2u) << odd;
+    EXPECT_EQ(found[1].label, 2) << odd;
+    EXPECT_NEAR(found[0].score, 1.0f, 1e-6f) << odd;
+    EXPECT_LE(found[0].score, 1.0f) << odd;
+    EXPECT_NEAR(found[1].score, 0.9f, 1e-5f) << odd;
+  }
+}
+
 TEST(DecodeSegmentation, TwoChannelsAreBackgroundAndOneClass) {
   MadeTensor output({1, 2, 10, 20});
   fill(output, 0, 0, 0, 20, 10, 2);

@@ -3,6 +3,7 @@
 
 #include "stillpoint/detectors/network_decoder.hpp"
 
+#include <limits>
 #include <string>
 
 #include "unit/detectors/made_tensor.hpp"
@@ -37,6 +38,19 @@ TEST(NetworkDecoder, TheLibrarysListsAreFoundByTheirLength) {
   EXPECT_EQ(classes(MadeTensor({1, 1, 64, 64}), {64, 64}), 1u);
   const MadeTensor logits({1, 100, 92}), boxes({1, 100, 4});
   EXPECT_EQ(NetworkDecoder({}, {800, 800}, views(logits, boxes)).classes().size(), 91u);
+}
+
+TEST(NetworkDecoder, SharesAndProbabilitiesAreZeroToOne) {
+  const MadeTensor output({1, 84, 8400});
+  DetectorOptions options;
+  options.lowest_confidence = 40;  // percent
+  EXPECT_EQ(error_with(options, {640, 640}, views(output)), "lowest_confidence is 40, expected 0 to 1");
+  options = {};
+  options.highest_overlap = std::numeric_limits<float>::quiet_NaN();
+  expect_contains(error_with(options, {640, 640}, views(output)), "highest_overlap is ");
+  options = {};
+  options.smallest_part = -0.1f;
+  expect_contains(error_with(options, {640, 640}, views(output)), "smallest_part is -0.1");
 }
 
 TEST(NetworkDecoder, WhatTheShapesDoNotTellMustBeSet) {

@@ -60,7 +60,8 @@ TEST(NetworkInput, RowsOfAViewMayHaveGaps) {
 
 TEST(NetworkInput, RefusesWhatIsNoPicture) {
   NetworkInput input({8, 4}, {});
-  expect_contains(error_of([&] { input.fill(ImageView()); }), "found an empty image, expected BGR or gray");
+  expect_contains(error_of([&] { input.fill(ImageView()); }),
+                  "found no image, or one of another format, expected BGR or gray");
   expect_contains(error_of([&] { input.fill(cv::Mat(4, 8, CV_16UC1)); }), "found an image of another format");
   expect_contains(error_of([&] { input.fill(cv::Mat(4, 8, CV_8UC4)); }), "found an image of another format");
 }

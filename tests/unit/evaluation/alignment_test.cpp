@@ -66,6 +66,27 @@ TEST(AlignPoints, FindsAKnownSimilarity) {
   }
 }
 
+// A tracker that is stuck, or a tripod: the mean of equal positions is not quite equal to them.
+TEST(AlignPoints, PointsThatCoincideAnywhereAreCollinear) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Random random(seed);
+    const std::vector<Vector3d> path = cloud(random, 300);
+    const std::vector<Vector3d> stuck(path.size(), gaussian_vector(random, seed % 2 == 0 ? 1.0 : 1e6));
+    for (const bool with_scale : {false, true}) {
+      EXPECT_EQ(align_points(stuck, path, with_scale).status, AlignmentStatus::collinear) << seed;
+      EXPECT_EQ(align_points(path, stuck, with_scale).status, AlignmentStatus::collinear) << seed;
+    }
+  }
+}
+
+// A micrometre of motion is one, a kilometre from the origin, too.
+TEST(AlignPoints, SmallMotionsFarAwayAreAligned) {
+  Random random(1);
+  std::vector<Vector3d> source = cloud(random, 30), target = source;
+  for (Vector3d& point : source) point = 1e-6 * point + Vector3d(1e3, 0, 0);
+  EXPECT_EQ(align_points(source, target, true).status, AlignmentStatus::ok);
+}
+
 TEST(AlignPoints, AgreesWithEigenOnNoisyPoints) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Random random(seed);

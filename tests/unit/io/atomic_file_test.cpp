@@ -13,6 +13,7 @@
 
 #if defined(__unix__)
 #include <sys/resource.h>
+#include <sys/stat.h>
 #endif
 
 namespace stillpoint {
@@ -49,6 +50,31 @@ TEST(AtomicFile, ReplacesAnOlderFile) {
   file.commit();
   EXPECT_EQ(TemporaryFolder::read(target), "new");
 }
+
+TEST(AtomicFile, WritesThroughASymbolicLink) {
+  const TemporaryFolder folder;
+  const auto real = folder.write("real.txt", "old"), link = folder.path() / "link.txt";
+  std::filesystem::create_symlink("real.txt", link);
+  AtomicFile file(link);
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_EQ(TemporaryFolder::read(real), "new");
+  EXPECT_EQ(folder.count_files(), 2);
+}
+
+#if defined(__unix__)
+TEST(AtomicFile, APipeIsNoFileToReplace) {
+  const TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(error_of([&] { AtomicFile file(pipe); }),
+            pipe.string() + ": found a device or a pipe, expected a file to write");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_EQ(error_of([] { AtomicFile file("/dev/null"); }),
+            "/dev/null: found a device or a pipe, expected a file to write");
+}
+#endif
 
 TEST(AtomicFile, TwoWritersOfOneTargetDoNotMix) {
   const TemporaryFolder folder;

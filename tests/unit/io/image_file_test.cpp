@@ -37,6 +37,16 @@ TEST(ReadImage, TakesPngAndJpeg) {
   EXPECT_EQ(read_image(folder.write("g.png", encoded(".png", CV_8UC1)), cv::IMREAD_COLOR).type(), CV_8UC3);
 }
 
+// An infrared image of 10 bit in 16: its upper 8 bit are 0 to 3.
+TEST(ReadImage, MoreThanEightBitIsAnErrorUnlessAllOfItIsAskedFor) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.png", encoded(".png", CV_16UC1));
+  EXPECT_EQ(error_of([&] { read_image(file, cv::IMREAD_COLOR); }),
+            file.string() + ": found an image of more than 8 bit, expected 8");
+  EXPECT_EQ(error_of([&] { read_image(file, cv::IMREAD_GRAYSCALE); }),
+            file.string() + ": found an image of more than 8 bit, expected 8");
+}
+
 TEST(ReadImage, BytesAfterTheEndOfAJpegDoNoHarm) {
   const TemporaryFolder folder;
   const auto file = folder.write("a.jpg", encoded(".jpg", CV_8UC3) + std::string(5000, '\0'));

@@ -116,6 +116,16 @@ TEST(StereoRectification, ShowsNoBlackRims) {
   EXPECT_EQ(cv::countNonZero(right < 255), 0);
 }
 
+TEST(StereoRectification, ImagesOfAnotherSizeAreNamed) {
+  const StereoRectification rectification(pinhole(), pinhole(), beside(0.1));
+  const cv::Mat whole(kHeight, kWidth, CV_8UC1, cv::Scalar(255)), half(kHeight / 2, kWidth / 2, CV_8UC1);
+  cv::Mat left, right;
+  EXPECT_EQ(error_of([&] { rectification.rectify(half, whole, left, right); }),
+            "stereo: found a left image of 160 x 120 pixels, expected the cameras' 320 x 240");
+  EXPECT_EQ(error_of([&] { rectification.rectify(whole, half, left, right); }),
+            "stereo: found a right image of 160 x 120 pixels, expected the cameras' 320 x 240");
+}
+
 TEST(StereoRectification, PairsThatAreNoneAreNamed) {
   const auto message = [](const Camera& left, const Camera& right, const Pose& right_from_left) {
     return error_of([&] { StereoRectification(left, right, right_from_left); });

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stillpoint/opencv.hpp"
+#include "unit/error_of.hpp"
 #include "unit/verdict/told_result.hpp"
 
 namespace stillpoint::keep_flags_test {
@@ -43,6 +44,14 @@ TEST_F(KeepFlags, TheMaskDropsWithinItsMarginAndLeadsBackToTheFlags) {
   flags_from_mask(mask.view(), std::vector<Vector2f>{{2, 1}, {1, 2}, {0, 1}, {1, 0}, {2, 2}, {1.49f, 0}, {1.51f, 0}},
                   keep);
   EXPECT_EQ(keep, (std::vector<std::uint8_t>{0, 0, 0, 0, 1, 0, 1}));
+}
+
+TEST_F(KeepFlags, AMaskOfFloatsIsAnError) {
+  std::vector<std::uint8_t> keep;
+  EXPECT_EQ(error_of([&] {
+              flags_from_mask(cv::Mat(6, 8, CV_32FC1, 1.0), std::vector<Vector2f>{{0, 0}}, keep);
+            }),
+            "flags_from_mask: the mask is no gray8 image, expected gray8, one byte per pixel");
 }
 
 TEST_F(KeepFlags, FromAMaskKeepWhatLiesOutsideOfIt) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stillpoint/opencv.hpp"
+#include "unit/error_of.hpp"
 
 namespace stillpoint::masked_depth_test {
 namespace {
@@ -47,6 +48,14 @@ void expect_zeroed(int type) {
 TEST(MaskedDepth, IsZeroWhereTheMaskIsAndTheCallersImageIsUntouched) {
   expect_zeroed<std::uint16_t>(CV_16UC1);
   expect_zeroed<float>(CV_32FC1);
+}
+
+TEST(MaskedDepth, AMaskOfFloatsIsAnError) {
+  ImageBuffer masked;
+  EXPECT_EQ(error_of([&] {
+              masked_depth(DepthView::tum(ramp<std::uint16_t>(6, 8, CV_16UC1)), cv::Mat(6, 8, CV_32FC1, 1.0), masked);
+            }),
+            "masked_depth: the mask is no gray8 image, expected gray8, one byte per pixel");
 }
 
 TEST(MaskedDepth, ReadsRowsWithGaps) {
