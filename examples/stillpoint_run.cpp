@@ -35,12 +35,12 @@
 #include "run/picture_roll.hpp"
 #include "run/report_html.hpp"
 #include "run/report_json.hpp"
+#include "run/result_files.hpp"
 #include "run/sequence_run.hpp"
 #include "run/video_file.hpp"
 #include "run/words.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/atomic_file.hpp"
-#include "stillpoint/io/trajectory_file.hpp"
 #include "stillpoint/options/options_file.hpp"
 
 namespace stillpoint_run {
@@ -85,13 +85,14 @@ void run(const Options& options) {
   if (options.calibrate) return calibrate_camera(options, *source);
   const std::unique_ptr<DetectionFeed> detector = open_feed(options);
   make_folder(options.out);
-  FeaturesFile features(options.out / "features.csv");
-  FramesFile frames(options.out / "frames.csv");
+  ResultFiles results(options.out);
+  FeaturesFile features(results.open("features.csv"));
+  FramesFile frames(results.open("frames.csv"));
   PictureRoll roll;
   std::optional<VideoFile> video;
   if (!options.save_video.empty()) video.emplace(options.save_video);
   std::optional<MoversFile> movers;
-  if (!options.no_movers) movers.emplace(options.out / "movers.csv");
+  if (!options.no_movers) movers.emplace(results.open("movers.csv"));
 
   std::string yaml;
   nlohmann::ordered_json stages;
@@ -105,20 +106,20 @@ void run(const Options& options) {
   const std::string json = report_json(options, record, figures, stages);
   const std::string html = report_html(options, record, figures, source->camera(), roll);
 
-  if (video) video->commit();
-  stillpoint::write_trajectory(options.out / "trajectory.txt", record.filtered);
-  stillpoint::write_trajectory(options.out / "trajectory_unfiltered.txt", record.unfiltered);
+  if (video) video->finish();
+  results.add("trajectory.txt", record.filtered);
+  results.add("trajectory_unfiltered.txt", record.unfiltered);
   if (record.map) {
-    stillpoint::write_trajectory(options.out / "trajectory_live.txt", record.live);
-    write_whole(options.out / "map.ply", record.map->ply);
-    if (!record.map->before_loop.empty()) write_whole(options.out / "map_before_loop.ply", record.map->before_loop);
+    results.add("trajectory_live.txt", record.live);
+    results.add("map.ply", record.map->ply);
+    if (!record.map->before_loop.empty()) results.add("map_before_loop.ply", record.map->before_loop);
   }
-  features.commit();
-  frames.commit();
-  if (movers) movers->commit();
-  if (!yaml.empty()) write_whole(options.out / "options.yaml", yaml);
-  write_whole(options.out / "report.json", json);
-  write_whole(options.out / "report.html", html);
+  if (!yaml.empty()) results.add("options.yaml", yaml);
+  results.add("report.json", json);
+  results.add("report.html", html);
+  results.finish();
+  if (video) video->commit();
+  results.commit();
   for (const std::string& sentence : sentences(options, record, figures)) std::printf("%s\n", sentence.c_str());
   if (video) std::printf("Video: %s\n", options.save_video.string().c_str());
   std::printf("Report: %s\n", (options.out / "report.html").string().c_str());

@@ -36,6 +36,7 @@ class BagSource : public FrameSource {
         bag_(options.bag, {options.image_topic, options.depth_topic, options.camera_info_topic},
              options.camera.empty()),
         is_rectified_(options.rectified),
+        has_camera_info_(options.camera.empty()),
         first_(first_frame()),
         camera_(camera_of(options)) {}
 
@@ -83,6 +84,7 @@ class BagSource : public FrameSource {
       frame.timestamp_s = paired.image.stamp_s;
       const cv::Mat image = stillpoint_ros::image_of(paired.image);
       require_camera_size(image, frame.timestamp_s);
+      require_one_camera(paired);
       if (image.channels() == 3) {
         frame.colour = image.clone();
         cv::cvtColor(image, frame.gray, cv::COLOR_BGR2GRAY);
@@ -106,6 +108,13 @@ class BagSource : public FrameSource {
                             size(expected.width(), expected.height()));
   }
 
+  void require_one_camera(const stillpoint_ros::PairedFrame& paired) const {
+    if (!has_camera_info_) return;
+    if (show_alike(camera_.camera, stillpoint_ros::camera_of(paired.camera, is_rectified_))) return;
+    throw stillpoint::Error("camera_info at " + stillpoint::format_timestamp(paired.camera.stamp_s) +
+                            " s: found other intrinsics than the first ones, expected one camera for all frames");
+  }
+
   template <class Read>
   auto in_file(Read&& read) const -> decltype(read()) {
     try {
@@ -118,6 +127,7 @@ class BagSource : public FrameSource {
   std::filesystem::path file_;
   stillpoint_ros::RgbdBag bag_;
   bool is_rectified_;
+  bool has_camera_info_;  // else --camera says what the camera is
   std::optional<stillpoint_ros::PairedFrame> first_;
   stillpoint::RgbdCamera camera_;
   std::size_t next_ = 0;

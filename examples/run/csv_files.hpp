@@ -8,7 +8,6 @@
 
 #include <charconv>
 #include <cstddef>
-#include <filesystem>
 #include <string>
 
 #include "frame_record.hpp"
@@ -21,7 +20,7 @@ namespace stillpoint_run {
 /// One row per feature and frame; what is not known is `nan`, a feature of no cluster has -1.
 class FeaturesFile {
  public:
-  explicit FeaturesFile(const std::filesystem::path& file) : file_(file) {
+  explicit FeaturesFile(stillpoint::AtomicFile& file) : file_(file) {
     file_.write("timestamp,x,y,keep,verdict,reason,score,cluster,depth,prior\n");
   }
 
@@ -48,8 +47,6 @@ class FeaturesFile {
     file_.write(text_);
   }
 
-  void commit() { file_.commit(); }
-
  private:
   void append(double value, int decimals) {
     text_ += ',';
@@ -62,7 +59,7 @@ class FeaturesFile {
     text_.append(digits, end.ptr);
   }
 
-  stillpoint::AtomicFile file_;
+  stillpoint::AtomicFile& file_;
   std::string text_;
 };
 
@@ -70,7 +67,7 @@ class FeaturesFile {
 /// warnings have `|` between them.
 class FramesFile {
  public:
-  explicit FramesFile(const std::filesystem::path& file) : file_(file) {
+  explicit FramesFile(stillpoint::AtomicFile& file) : file_(file) {
     file_.write("timestamp,status,reference_timestamp,tx,ty,tz,qx,qy,qz,qw,features,kept,keep_floor_kept,warnings\n");
   }
 
@@ -101,17 +98,15 @@ class FramesFile {
     file_.write(row);
   }
 
-  void commit() { file_.commit(); }
-
  private:
-  stillpoint::AtomicFile file_;
+  stillpoint::AtomicFile& file_;
 };
 
 /// One row per mover and frame: place and velocity in the axes of the current camera, the velocity relative to the
 /// world; the class is `unknown` where no detector named it.
 class MoversFile {
  public:
-  explicit MoversFile(const std::filesystem::path& file) : file_(file) {
+  explicit MoversFile(stillpoint::AtomicFile& file) : file_(file) {
     file_.write("timestamp,id,state,x,y,z,vx,vy,vz,features,class\n");
   }
 
@@ -128,10 +123,8 @@ class MoversFile {
     }
   }
 
-  void commit() { file_.commit(); }
-
  private:
-  stillpoint::AtomicFile file_;
+  stillpoint::AtomicFile& file_;
 };
 
 }  // namespace stillpoint_run

@@ -32,7 +32,7 @@ struct RunRecord {
   bool has_backend = false, has_stages = false, has_labels = false, has_depth = true;
   bool was_interrupted = false;
   std::size_t missing_files = 0;                ///< that the sequence's lists name
-  std::size_t images_without_depth = 0;         ///< of a bag: they are no frames
+  std::size_t images_without_depth = 0;         ///< of its time: they are no frames
   std::vector<std::string> assumptions;         ///< of the source, where nobody told it
   stillpoint::Trajectory filtered, unfiltered;  ///< world: the camera in the first frame; as a map has them in the end
   stillpoint::Trajectory live;                  ///< the filtered one, as it was known at the time
@@ -85,6 +85,9 @@ struct Figures {
   TrajectoryFigures filtered, unfiltered;
   stillpoint::TrajectoryErrors divergence;  ///< of the unfiltered trajectory from the filtered one, laid on its start
   std::optional<double> divergence_max_m, divergence_max_deg;
+
+  /// Whether a trajectory could be laid on a reference.
+  bool has_errors() const noexcept { return filtered.ate_rmse_m || unfiltered.ate_rmse_m; }
 };
 
 namespace detail {

@@ -100,6 +100,7 @@ class TumSource : public FrameSource {
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return sequence_.ground_truth(); }
   bool has_labels() const override { return sequence_.has_labels(); }
   std::size_t missing_files() const override { return sequence_.missing_files(); }
+  std::size_t images_without_depth() const override { return sequence_.images_without_depth(); }
   std::optional<stillpoint::StereoNoise> stereo_noise() const override {
     if (!sequence_.baseline_m()) return std::nullopt;
     stillpoint::StereoNoise noise;

@@ -85,7 +85,7 @@ inline std::vector<Moment> moments(const RunRecord& run, const Figures& figures)
   };
   add_error(figures.filtered.drift, "greatest error with the filter");
   add_error(figures.unfiltered.drift, "greatest error without the filter");
-  if (!run.ground_truth) add_error(figures.divergence, "the trajectories are furthest apart");
+  if (!figures.has_errors()) add_error(figures.divergence, "the trajectories are furthest apart");
 
   const auto share_dropped = [](const FrameSummary& frame) -> std::optional<double> {
     if (frame.features == 0) return std::nullopt;

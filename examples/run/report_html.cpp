@@ -34,8 +34,9 @@ std::string tiles(const RunRecord& run, const Figures& figures) {
                  (without ? "unfiltered " + length_words(*without) + "; " : "") + "ATE, RMSE");
   if (figures.improvement_percent)
     html += tile("improvement", stillpoint::format_fixed(*figures.improvement_percent, 0) + " %", "of the ATE");
-  if (!run.ground_truth && figures.divergence_max_m)
-    html += tile("filtered and unfiltered differ by", length_words(*figures.divergence_max_m), "at most; no reference");
+  if (!figures.has_errors() && figures.divergence_max_m)
+    html += tile("filtered and unfiltered differ by", length_words(*figures.divergence_max_m),
+                 run.ground_truth ? "at most; the reference does not fit" : "at most; no reference");
   if (const auto recall = run.labels.recall())
     html += tile("moving features dropped", percent_words(*recall),
                  "recall, of " + std::to_string(run.labels.moving().features) + " features");
@@ -84,7 +85,7 @@ std::string player(const PictureRoll& roll, bool has_movers) {
          "<label" +
          (has_movers ? "" : " hidden") +
          "><input type=\"checkbox\" id=\"show_movers\" checked> movers</label></p>\n"
-         "<table id=\"reasons\"><caption>Why, in this frame</caption><thead><tr><th scope=\"col\">reason</th>"
+         "<table id=\"reasons\"><caption>Why</caption><thead><tr><th scope=\"col\">reason</th>"
          "<th scope=\"col\" class=\"n\">kept</th><th scope=\"col\" class=\"n\">dropped</th></tr></thead>"
          "<tbody></tbody></table>\n" +
          (roll.stride() > 1

@@ -63,10 +63,12 @@ inline Plot map_plot(const DrawnPaths& drawn, std::array<int, 2> axes) {
     plot.lines.push_back(detail::map_line(path, axes));
   }
   add_map(true);  // short, and on the trajectories
-  plot.description = has_reference
+  const bool has_estimate = plot.lines.size() > (has_reference ? 1u : 0u);
+  plot.description = !has_estimate ? "The camera's path by the reference; no tracker ran."
+                     : has_reference
                          ? "The camera's path with and without the filter from the same start, aligned to the "
                            "reference as the better one is."
-                         : "The camera's path with and without the filter; there is no reference.";
+                         : "The camera's path with and without the filter; no reference could be compared.";
   if (is_from_above && !drawn.map.empty())
     plot.description += " Keyframes are those that the map has in the end; a loop connects two of them.";
   return plot;
@@ -159,7 +161,7 @@ inline Plot error_plot(const RunRecord& run, const Figures& figures, const detai
   return plot;
 }
 
-/// Where there is no reference: the difference of filtered and unfiltered trajectory.
+/// Where no reference can be compared: the difference of filtered and unfiltered trajectory.
 inline Plot divergence_plot(const RunRecord& run, const Figures& figures, const detail::ErrorKind& kind) {
   Plot plot;
   plot.title = std::string("Difference of filtered and unfiltered: ") + kind.noun;
@@ -168,8 +170,8 @@ inline Plot divergence_plot(const RunRecord& run, const Figures& figures, const 
   plot.lines.push_back(detail::error_line(run, "difference", "filtered", figures.divergence,
                                           figures.divergence.*kind.values, kind.factor));
   plot.description =
-      "Difference of the two trajectories, which start at the same pose. There is no reference, so this does not say "
-      "which of them is right.";
+      "Difference of the two trajectories, which start at the same pose. No reference could be compared, so this does "
+      "not say which of them is right.";
   return plot;
 }
 
@@ -271,9 +273,9 @@ inline std::vector<Plot> report_plots(const RunRecord& run, const Figures& figur
                                       const std::vector<MoverHistory>& movers) {
   std::vector<Plot> plots;
   for (const detail::ErrorKind& kind : {detail::kPositions, detail::kRotations}) {
-    if (figures.filtered.ate_rmse_m || figures.unfiltered.ate_rmse_m)
+    if (figures.has_errors())
       plots.push_back(error_plot(run, figures, kind));
-    else if (!run.ground_truth && !figures.divergence.timestamps_s.empty())
+    else if (!figures.divergence.timestamps_s.empty())
       plots.push_back(divergence_plot(run, figures, kind));
   }
   if (!movers.empty()) plots.push_back(speed_plot(run, movers));

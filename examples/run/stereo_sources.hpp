@@ -83,6 +83,7 @@ class EurocSource : public StereoSource {
   std::optional<std::size_t> size() const override { return sequence_.frames().size(); }
   const std::optional<stillpoint::Trajectory>& ground_truth() const override { return ground_truth_; }
   std::size_t missing_files() const override { return sequence_.missing_files(); }
+  std::size_t images_without_depth() const override { return sequence_.images_without_partner(); }
 
   std::optional<SourceFrame> load(std::size_t index) override {
     if (index >= sequence_.frames().size()) return std::nullopt;

@@ -73,20 +73,26 @@ class VideoFile {
     writer_.write(image);
   }
 
-  /// Gives the video its name. cv::VideoWriter reports no failed write: the file is read back first.
-  /// @throws stillpoint::Error where it has fewer frames than were written, or cannot be renamed
-  void commit() {
+  /// Writes what is left. cv::VideoWriter reports no failed write: the file is read back.
+  /// @throws stillpoint::Error where it has fewer frames than were written
+  void finish() {
     if (!writer_.isOpened() && !first_.empty()) {
       open(stillpoint::kAssumedFrameRate_hz);
       writer_.write(first_);
     }
     writer_.release();
     const std::size_t readable = count_frames(temporary_);
-    const bool is_finished = states_its_size(temporary_);
-    if (readable < frames_ || !is_finished)
+    is_finished_ = states_its_size(temporary_);
+    if (readable < frames_ || !is_finished_)
       throw stillpoint::Error(target_.string() + ": cannot write the video: found " + std::to_string(readable) +
-                              " frames in the file" + (is_finished ? "" : ", which breaks off") + "; expected the " +
+                              " frames in the file" + (is_finished_ ? "" : ", which breaks off") + "; expected the " +
                               std::to_string(frames_) + " that were written (is the disk full?)");
+  }
+
+  /// Gives the video its name.
+  /// @throws stillpoint::Error where it cannot be finished or renamed
+  void commit() {
+    if (!is_finished_) finish();
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
     if (error) throw stillpoint::Error(target_.string() + ": cannot write the video: " + error.message());
@@ -118,7 +124,7 @@ class VideoFile {
   cv::Mat first_;
   double first_s_ = 0.0;
   std::size_t frames_ = 0;
-  bool is_committed_ = false;
+  bool is_finished_ = false, is_committed_ = false;
 };
 
 }  // namespace stillpoint_run

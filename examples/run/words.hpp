@@ -45,8 +45,16 @@ inline std::string trajectory_words(const RunRecord& run, const Figures& figures
            length_words(*without) + ".";
   if (with) return "With the filter the trajectory is off by " + length_words(*with) + " (ATE).";
   if (without) return "Without the filter the trajectory is off by " + length_words(*without) + " (ATE).";
-  if (run.ground_truth) return "There are too few poses to compare the trajectories with the reference.";
-  const std::string unknown = "There is no reference, so the error of the trajectory is not known";
+  const bool is_near_in_time =
+      figures.filtered.absolute.alignment.status != stillpoint::AlignmentStatus::too_few_points ||
+      figures.unfiltered.absolute.alignment.status != stillpoint::AlignmentStatus::too_few_points;
+  const std::string why =
+      !run.ground_truth ? "There is no reference"
+      : is_near_in_time
+          ? "The camera or the tracker stayed at one place or on a line, which fits the reference in many ways"
+          : "Fewer than three poses of the reference are within 10 ms of the trajectory's (is its clock "
+            "another one?)";
+  const std::string unknown = why + ", so the error of the trajectory is not known";
   if (!figures.divergence_max_m) return unknown + ".";
   return unknown + "; with and without the filter it differs by up to " + length_words(*figures.divergence_max_m) + ".";
 }

@@ -159,6 +159,8 @@ void feedback(Filter& self, const py::object& world_from_camera) {
 
 void expect_motion(Filter& self, const py::object& current_from_reference) {
   const stillpoint::Pose pose = pose_of(current_from_reference, "current_from_reference");
+  if (!stillpoint::is_plausible_motion(pose))
+    throw stillpoint::Error("current_from_reference moves by more than 100 m, expected metres from frame to frame");
   self.without_gil([&](stillpoint::FrameFilter<>& filter) { filter.expect_motion(pose); });
 }
 

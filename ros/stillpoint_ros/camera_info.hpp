@@ -34,6 +34,19 @@ inline bool is_same_camera(const CameraInfo& a, const CameraInfo& b) {
          a.d == b.d && a.p == b.p;
 }
 
+/// Whether two cameras show a ray at the same pixel, within the noise of a corner, half-way to the border. Calibrations
+/// change in their last digits with the focus or the temperature: what was seen with one fits the other.
+inline bool show_alike(const stillpoint::Camera& a, const stillpoint::Camera& b) {
+  constexpr double kSame_px = 0.25;
+  if (a.width() != b.width() || a.height() != b.height()) return false;
+  for (const double x : {-0.25, 0.25})
+    for (const double y : {-0.25, 0.25}) {
+      const stillpoint::Vector3d ray(x * a.width() / a.fx(), y * a.height() / a.fy(), 1.0);
+      if (!((a.distort(a.project(ray)) - b.distort(b.project(ray))).norm() <= kSame_px)) return false;
+    }
+  return true;
+}
+
 namespace detail {
 inline constexpr const char* kRectify =
     "rectify images of another lens with image_proc and set the parameter rectified (stillpoint_run: --rectified)";

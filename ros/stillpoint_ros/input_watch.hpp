@@ -4,6 +4,7 @@
 
 // What is missing?   A node that waits without a word is the commonest trouble with ROS: wrong topic, other clock.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -26,7 +27,11 @@ class InputWatch {
   /// @param topics  their names as the user knows them, in the order of `Input`
   explicit InputWatch(std::array<std::string, kInputCount> topics) : topics_(std::move(topics)) {}
 
-  void seen(Input input, double now_s) noexcept { last_s_[static_cast<std::size_t>(input)] = now_s; }
+  void seen(Input input, double now_s) noexcept {
+    const auto i = static_cast<std::size_t>(input);
+    if (last_s_[i]) period_s_[i] = now_s - *last_s_[i];
+    last_s_[i] = now_s;
+  }
   void paired(double now_s) noexcept { last_pair_s_ = now_s; }
   /// A message could not be read: why, in one sentence.
   void rejected(double now_s, std::string why) {
@@ -41,20 +46,24 @@ class InputWatch {
       const std::string what = std::string(kNames[i]) + " on " + topics_[i];
       if (!last_s_[i])
         sentences.push_back("no " + what + " yet");
-      else if (i != static_cast<std::size_t>(Input::camera_info) && now_s - *last_s_[i] > kSilence_s)
+      else if (i != static_cast<std::size_t>(Input::camera_info) && now_s - *last_s_[i] > silence_s(i))
         sentences.push_back("no " + what + " for " + seconds(now_s - *last_s_[i]) + " s");
     }
-    if (is_recent(last_rejected_s_, now_s)) sentences.push_back(why_);
-    if (sentences.empty() && !is_recent(last_pair_s_, now_s)) sentences.push_back(unpaired(pairing));
+    if (is_recent(last_rejected_s_, now_s, kSilence_s)) sentences.push_back(why_);
+    if (sentences.empty() && !is_recent(last_pair_s_, now_s, std::max(silence_s(0), silence_s(1))))
+      sentences.push_back(unpaired(pairing));
     return sentences;
   }
 
  private:
   static constexpr const char* kNames[kInputCount] = {"image", "depth", "camera_info"};
   static constexpr double kSilence_s = 1.0;
+  static constexpr double kPeriods = 2.5;  // of a slow stream: one message was lost, and the next is late
 
-  static bool is_recent(const std::optional<double>& time_s, double now_s) {
-    return time_s && now_s - *time_s <= kSilence_s;
+  double silence_s(std::size_t input) const noexcept { return std::max(kSilence_s, kPeriods * period_s_[input]); }
+
+  static bool is_recent(const std::optional<double>& time_s, double now_s, double recent_s) {
+    return time_s && now_s - *time_s <= recent_s;
   }
   static std::string seconds(double value_s) { return stillpoint::format_fixed(value_s, value_s < 10 ? 3 : 0); }
 
@@ -80,6 +89,7 @@ class InputWatch {
 
   std::array<std::string, kInputCount> topics_;
   std::array<std::optional<double>, kInputCount> last_s_;
+  std::array<double, kInputCount> period_s_{};  // between the last two; 0 until then
   std::optional<double> last_pair_s_, last_rejected_s_;
   std::string why_;
 };

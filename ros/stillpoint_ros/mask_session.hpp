@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,7 +68,7 @@ class MaskSession {
   const FrameAnswer& process(const PairedFrame& frame) {
     const cv::Mat image = read("image", [&] { return image_of(frame.image); });
     const cv::Mat depth = read("depth", [&] { return depth_of(frame.depth); });
-    use_camera(frame.camera);
+    const bool is_other_camera = use_camera(frame.camera);
     filter.movers.is_on = options.follow_movers;
     cv::Mat gray = image;
     if (image.channels() == 3) cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
@@ -79,7 +78,8 @@ class MaskSession {
     if (image.channels() == 3) view.colour = image;
     const stillpoint::FrameResult& result = filter.filter_frame(view, keypoints_);
     answer_.status = result.status();
-    answer_.hint = result.hint();
+    answer_.hint =
+        is_other_camera ? "camera_info is of another camera than before: the filter began anew." : result.hint();
     answer_.features = result.size();
     answer_.kept = result.kept_count();
     answer_.movers = result.movers();
@@ -102,11 +102,14 @@ class MaskSession {
     }
   }
 
-  void use_camera(const CameraInfo& info) {
-    if (camera_ && is_same_camera(*camera_, info)) return;
-    filter.camera = camera_of(info, options.rectified);
+  /// @return whether it is another camera than the last frame's: the filter begins anew
+  bool use_camera(const CameraInfo& info) {
+    const stillpoint::Camera camera = camera_of(info, options.rectified);
+    const bool had_camera = std::exchange(has_camera_, true);
+    if (had_camera && show_alike(filter.camera, camera)) return false;
+    filter.camera = camera;
     filter.reset();
-    camera_ = info;
+    return had_camera;
   }
 
   void find_keypoints(const cv::Mat& gray) {
@@ -131,7 +134,7 @@ class MaskSession {
     answer_.depth = depth_.view();
   }
 
-  std::optional<CameraInfo> camera_;
+  bool has_camera_ = false;
   cv::Ptr<cv::ORB> orb_;
   std::vector<cv::KeyPoint> keypoints_;
   stillpoint::ImageBuffer mask_, inverse_, depth_;

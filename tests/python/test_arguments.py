@@ -343,3 +343,10 @@ def test_other_threads_run_meanwhile(frames, camera):
         counter.join()
         sys.setswitchinterval(sys_interval)
     assert during >= 3
+
+
+def test_motion_that_is_none(frame_filter):
+    far = np.eye(4)
+    far[0, 3] = 1e9  # nanometres
+    with pytest.raises(stillpoint.Error, match="^current_from_reference moves by more than 100 m, expected metres"):
+        frame_filter.expect_motion(far)

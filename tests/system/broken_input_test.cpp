@@ -100,6 +100,33 @@ TEST_F(BrokenInput, FewMissingImagesAreLeftOutAndSaid) {
   EXPECT_NE(read_text(out / "report.json").find("\"missing_files\": 1,"), std::string::npos);
 }
 
+TEST_F(BrokenInput, ImagesWithoutDepthAreLeftOutAndSaid) {
+  fs::remove(sequence / "associations.txt");
+  fs::remove_all(sequence / "labels");
+  write_text(sequence / "rgb.txt", "1.0 rgb/1.000000.png\n1.1 rgb/1.000000.png\n1.2 rgb/1.000000.png\n");
+  write_text(sequence / "depth.txt", "1.0 depth/1.000000.png\n1.15 depth/1.000000.png\n");
+  const Outcome outcome = run_program(arguments("--backend none --features 20"));
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("2 images have no depth of their time and were left out."), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(read_text(out / "report.json").find("\"images_without_depth\": 2,"), std::string::npos);
+}
+
+TEST_F(BrokenInput, AReferenceOfAnotherClockIsSaid) {
+  write_text(sequence / "groundtruth.txt", "100.0 0 0 0 0 0 0 1\n100.1 1 0 0 0 0 0 1\n100.2 0 1 0 0 0 0 1\n");
+  const Outcome outcome = run_program(arguments());
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  EXPECT_NE(
+      outcome.out.find("Fewer than three poses of the reference are within 10 ms of the trajectory's (is its clock "
+                       "another one?), so the error of the trajectory is not known"),
+      std::string::npos)
+      << outcome.out;
+  const std::string page = read_text(out / "report.html");
+  EXPECT_EQ(page.find("There is no reference"), std::string::npos);
+  EXPECT_EQ(page.find("there is no reference"), std::string::npos);
+  EXPECT_NE(page.find("Difference of filtered and unfiltered"), std::string::npos) << "the plot";
+}
+
 TEST_F(BrokenInput, PipesAndDevicesAsTextFiles) {
   fs::remove(sequence / "associations.txt");
   ASSERT_EQ(std::system(("mkfifo " + quoted(sequence / "associations.txt")).c_str()), 0);

@@ -249,6 +249,26 @@ TEST_F(Demo, WritesWhereMoversAreUnlessToldNotTo) {
   EXPECT_EQ(read_text(other / "out" / "features.csv"), read_text(out() / "features.csv")) << "verdicts are the same";
 }
 
+TEST(DemoChoices, FilesOfTheRunBeforeAreReplacedOrRemovedTogether) {
+  const TemporaryFolder other;
+  const std::string demo = "--demo --quiet --backend none --out " + quoted(other / "out");
+  ASSERT_EQ(run_program(demo + " --frames 3").status, 0);
+  // Where the last file can't be made, none is replaced.
+  const std::string frames = read_text(other / "out" / "frames.csv");
+  fs::remove(other / "out" / "report.html");
+  fs::create_directory(other / "out" / "report.html");
+  EXPECT_EQ(run_program(demo + " --frames 5").status, 2);
+  EXPECT_EQ(read_text(other / "out" / "frames.csv"), frames);
+  EXPECT_TRUE(fs::exists(other / "out" / "movers.csv"));
+  fs::remove(other / "out" / "report.html");
+  // What this run does not write is not left of another one; what is no result stays.
+  write_text(other / "out" / "notes.txt", "mine");
+  ASSERT_EQ(run_program(demo + " --frames 5 --no-movers").status, 0);
+  EXPECT_EQ(read_csv(other / "out" / "frames.csv").size(), 6u);
+  EXPECT_FALSE(fs::exists(other / "out" / "movers.csv"));
+  EXPECT_EQ(read_text(other / "out" / "notes.txt"), "mine");
+}
+
 TEST(DemoChoices, OracleDropsAllThatMoves) {
   const TemporaryFolder other;
   ASSERT_EQ(run_program("--demo --quiet --prior labels --frames 4 --out " + quoted(other / "out")).status, 0);

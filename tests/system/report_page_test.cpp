@@ -120,6 +120,14 @@ window.addEventListener("load", () => setTimeout(() => {
       click(drawing, x, y);
     }
   tell("feature", document.getElementById("feature").textContent.startsWith("Feature at"));
+  // In a long recording not each frame has an image: whose features these are is said.
+  const caption = () => document.getElementById("reasons").caption.textContent;
+  const says = () => document.getElementById("status").textContent.includes("The image is of frame");
+  slide(4);
+  tell("reasons of its own", `${caption() === `Why, in frame ${run.frames[4].number}`} ${says()}`);
+  run.pictures.splice(2, 4);
+  slide(5);
+  tell("reasons of another", `${caption() === `Why, in frame ${run.frames[1].number}`} ${says()}`);
   tell("overflow", document.documentElement.scrollWidth > window.innerWidth);
   document.getElementById("found").textContent += found.join("\n");
 }, 200));
@@ -180,6 +188,8 @@ const std::string kAsExpected =
     "moment: true\n"
     "buttons: true\n"
     "feature: true\n"
+    "reasons of its own: true false\n"
+    "reasons of another: true true\n"
     "overflow: false";
 
 TEST(ReportPage, SliderKeysAndPlotsShowTheMoment) {

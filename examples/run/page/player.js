@@ -197,6 +197,7 @@ function listReasons() {
   }
   const body = byId("reasons").tBodies[0];
   body.replaceChildren();
+  byId("reasons").caption.textContent = `Why, in frame ${run.frames[picture.frame].number}`;
   for (const [reason, [kept, dropped]] of [...counts].sort((a, b) => b[1][0] + b[1][1] - a[1][0] - a[1][1])) {
     const row = body.insertRow(), head = cell(row, run.terms.reasons[reason][0], "th");
     head.scope = "row";
@@ -219,6 +220,8 @@ function describe(frame, index) {
   for (const warning of frame.warnings) line(warning, run.terms.warnings[warning]);
   const movers = moversIn(index).map(([mover, seen]) => moverLabel(mover, seen));
   if (movers.length) line("Movers:", `${movers.join(", ")}.`);
+  const shown = pictureOf(index);
+  if (shown && shown.frame !== index) status.append(`The image is of frame ${run.frames[shown.frame].number}.`);
 }
 
 listeners.push((index) => {

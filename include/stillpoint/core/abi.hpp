@@ -51,20 +51,36 @@ using InstructionSets = InstructionSet;
 #endif
 }  // namespace detail
 
+/// Its containers change with `_GLIBCXX_DEBUG`, its strings with `_GLIBCXX_USE_CXX11_ABI`.
+template <bool checks_iterators, int string_abi>
+struct of_standard_library;
 template <int version>
 struct of_stillpoint;
 template <int world, int major, int minor>
 struct of_eigen;
 template <int most_bytes, int most_bytes_of_static, int storage_order>
 struct of_eigen_alignment;
-template <class InstructionSet, class Alignment, class Eigen, class Stillpoint>
+template <class InstructionSet, class Alignment, class Eigen, class StandardLibrary, class Stillpoint>
 struct HostAbi;
+
+namespace detail {
+#if defined(_GLIBCXX_DEBUG)
+inline constexpr bool kChecksIterators = true;
+#else
+inline constexpr bool kChecksIterators = false;
+#endif
+#if defined(_GLIBCXX_USE_CXX11_ABI)
+using StandardLibrary = of_standard_library<kChecksIterators, _GLIBCXX_USE_CXX11_ABI>;
+#else
+using StandardLibrary = of_standard_library<kChecksIterators, 0>;  // libc++: its namespace names its version
+#endif
+}  // namespace detail
 
 /// That of this file.
 using Abi = HostAbi<
     detail::InstructionSets,
     of_eigen_alignment<EIGEN_MAX_ALIGN_BYTES, EIGEN_MAX_STATIC_ALIGN_BYTES, static_cast<int>(Eigen::Matrix2d::Options)>,
-    of_eigen<EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION>,
+    of_eigen<EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION>, detail::StandardLibrary,
     of_stillpoint<STILLPOINT_VERSION_MAJOR * 10000 + STILLPOINT_VERSION_MINOR * 100 + STILLPOINT_VERSION_PATCH>>;
 
 }  // namespace stillpoint

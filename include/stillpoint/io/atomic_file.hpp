@@ -48,7 +48,7 @@ class AtomicFile {
   ~AtomicFile() { discard(); }
 
   /// Appends bytes as they are.
-  /// @throws Error if they can't be written (a full disk may show only at `commit()`), or after `commit()`.
+  /// @throws Error if they can't be written (a full disk may show only at `commit()`), or after `finish()`.
   AtomicFile& write(std::string_view text) {
     require_open();
     errno = 0;
@@ -56,9 +56,9 @@ class AtomicFile {
     return *this;
   }
 
-  /// Gives the file its name, over an older one if there is one.
-  /// @throws Error if anything is left that can't be written, or the name can't be given; the target is then unchanged.
-  void commit() {
+  /// Writes what is left, so that of several files each is whole before the first gets its name.
+  /// @throws Error if it can't be written; nothing is left of it then.
+  void finish() {
     require_open();
     errno = 0;
     const bool flushed = std::fflush(file_) == 0;
@@ -69,6 +69,14 @@ class AtomicFile {
       remove_temporary();
       fail("cannot write", reason);
     }
+    is_finished_ = true;
+  }
+
+  /// Gives the file its name, over an older one if there is one.
+  /// @throws Error if anything is left that can't be written, or the name can't be given; the target is then unchanged.
+  void commit() {
+    if (!is_finished_) finish();
+    is_finished_ = false;
     std::error_code error;
     std::filesystem::rename(temporary_, target_, error);
     if (!error) return;
@@ -78,12 +86,12 @@ class AtomicFile {
 
  private:
   void require_open() const {
-    if (file_ == nullptr) throw Error(target_.string() + ": is committed already, expected no further writing");
+    if (file_ == nullptr) throw Error(target_.string() + ": is finished already, expected no further writing");
   }
 
   void discard() noexcept {
-    if (file_ == nullptr) return;
-    std::fclose(std::exchange(file_, nullptr));
+    if (file_ == nullptr && !is_finished_) return;
+    if (file_ != nullptr) std::fclose(std::exchange(file_, nullptr));
     remove_temporary();
   }
 
@@ -99,6 +107,7 @@ class AtomicFile {
   std::filesystem::path target_;
   std::filesystem::path temporary_;
   std::FILE* file_ = nullptr;
+  bool is_finished_ = false;  // whole, and not yet of the target's name
 };
 
 }  // namespace stillpoint

@@ -116,6 +116,7 @@ class EurocSequence {
     if (frames_.empty())
       throw Error(sensors_.string() + ": found no pair among " + std::to_string(left.size()) + " images of cam0 and " +
                   std::to_string(right.size()) + " of cam1, expected equal times");
+    images_without_partner_ = left.size() - frames_.size();
     const std::filesystem::path truth = sensors_ / "state_groundtruth_estimate0" / "data.csv";
     std::error_code ignored;
     if (!std::filesystem::exists(truth, ignored)) return;
@@ -127,6 +128,8 @@ class EurocSequence {
   const std::vector<StereoFrame>& frames() const { return frames_; }
   /// Images that the lists name and that are not there: a tenth at most, and their frames are left out.
   std::size_t missing_files() const { return missing_files_; }
+  /// Images of the left camera that have no partner of their time: they are no frames.
+  std::size_t images_without_partner() const { return images_without_partner_; }
   const Camera& left_camera() const { return left_.camera; }
   const Camera& right_camera() const { return right_.camera; }
   Pose right_from_left() const { return right_.body_from_camera.inverse() * left_.body_from_camera; }
@@ -157,7 +160,7 @@ class EurocSequence {
   std::filesystem::path folder_, sensors_;
   EurocCamera left_, right_;
   std::vector<StereoFrame> frames_;
-  std::size_t missing_files_ = 0;
+  std::size_t missing_files_ = 0, images_without_partner_ = 0;
   std::optional<Trajectory> ground_truth_;
 };
 

@@ -60,17 +60,25 @@ inline std::string format_pose(const StampedPose& pose) {
   return row;
 }
 
-/// Writes a trajectory; the file appears when it is whole.
-/// @throws Error if the file can't be written or a pose is not finite.
-inline void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
-  AtomicFile output(file);
-  output.write("# timestamp tx ty tz qx qy qz qw\n");
+/// A trajectory as it is written in files.
+/// @param file  its name, for the message
+/// @throws Error if a pose is not finite.
+inline std::string format_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
+  std::string text = "# timestamp tx ty tz qx qy qz qw\n";
   for (const StampedPose& pose : trajectory) {
     if (!std::isfinite(pose.timestamp_s) || !pose.world_from_camera.matrix().allFinite())
       throw Error(file.string() + ": the pose at " + format_timestamp(pose.timestamp_s) +
                   " is not finite, expected finite poses to write");
-    output.write(format_pose(pose) + '\n');
+    text += format_pose(pose) + '\n';
   }
+  return text;
+}
+
+/// Writes a trajectory; the file appears when it is whole.
+/// @throws Error if the file can't be written or a pose is not finite.
+inline void write_trajectory(const std::filesystem::path& file, const Trajectory& trajectory) {
+  AtomicFile output(file);
+  output.write(format_trajectory(file, trajectory));
   output.commit();
 }
 

@@ -113,7 +113,8 @@ inline std::vector<std::pair<std::size_t, std::size_t>> associate_images(const s
 /// The frames of a sequence, and how many images its lists name that are not there.
 struct TumFrames {
   std::vector<TumFrame> frames;
-  std::size_t missing_files = 0;  ///< their frames are left out
+  std::size_t missing_files = 0;         ///< their frames are left out
+  std::size_t images_without_depth = 0;  ///< of rgb.txt: no depth image is near enough in time
 };
 
 /// Reads the frames of a sequence: from associations.txt (`timestamp rgb_file timestamp depth_file`) if there is one,
@@ -152,6 +153,7 @@ inline TumFrames list_tum_frames(const std::filesystem::path& folder, double max
   const auto depth = detail::read_image_list(folder, "depth.txt", list.missing_files);
   for (const auto& [i, j] : detail::associate_images(colour, depth, max_time_difference_s))
     list.frames.push_back({colour[i].timestamp_s, colour[i].file, depth[j].file});
+  list.images_without_depth = colour.size() - list.frames.size();
   if (list.frames.empty())
     throw Error(folder.string() + ": found no pair among " + std::to_string(colour.size()) + " images of rgb.txt and " +
                 std::to_string(depth.size()) + " of depth.txt, expected times less than " +

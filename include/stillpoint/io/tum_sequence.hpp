@@ -52,6 +52,8 @@ class TumSequence {
   const std::vector<TumFrame>& frames() const { return list_.frames; }
   /// Images that the lists name and that are not there: a tenth at most, and their frames are left out.
   std::size_t missing_files() const { return list_.missing_files; }
+  /// Images of rgb.txt that no depth image is near in time: they are no frames.
+  std::size_t images_without_depth() const { return list_.images_without_depth; }
   const Camera& camera() const { return camera_.camera; }
   double depth_factor() const { return camera_.depth_factor; }
   /// Of the two cameras that the depth is from; empty where the camera's file does not say.

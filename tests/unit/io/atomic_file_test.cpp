@@ -51,6 +51,25 @@ TEST(AtomicFile, ReplacesAnOlderFile) {
   EXPECT_EQ(TemporaryFolder::read(target), "new");
 }
 
+TEST(AtomicFile, AFinishedFileIsWholeAndHasNoNameYet) {
+  const TemporaryFolder folder;
+  const auto target = folder.write("out.txt", "old");
+  {
+    AtomicFile file(target);
+    file.write("new");
+    file.finish();
+    EXPECT_EQ(TemporaryFolder::read(folder.path() / "out.txt.partial0"), "new");
+    EXPECT_EQ(TemporaryFolder::read(target), "old");
+  }
+  EXPECT_EQ(folder.count_files(), 1) << "without commit";
+  AtomicFile file(target);
+  file.write("new");
+  file.finish();
+  file.commit();
+  EXPECT_EQ(TemporaryFolder::read(target), "new");
+  EXPECT_EQ(folder.count_files(), 1);
+}
+
 TEST(AtomicFile, WritesThroughASymbolicLink) {
   const TemporaryFolder folder;
   const auto real = folder.write("real.txt", "old"), link = folder.path() / "link.txt";
@@ -137,8 +156,8 @@ TEST(AtomicFile, WritingAfterCommitIsAnError) {
   const TemporaryFolder folder;
   AtomicFile file(folder.path() / "out.txt");
   file.commit();
-  EXPECT_NE(error_of([&] { file.write("more"); }).find("is committed already"), std::string::npos);
-  EXPECT_NE(error_of([&] { file.commit(); }).find("is committed already"), std::string::npos);
+  EXPECT_NE(error_of([&] { file.write("more"); }).find("is finished already"), std::string::npos);
+  EXPECT_NE(error_of([&] { file.commit(); }).find("is finished already"), std::string::npos);
 }
 
 #if defined(__unix__)

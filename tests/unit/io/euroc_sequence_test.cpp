@@ -70,6 +70,7 @@ TEST_F(EurocSequenceTest, PairsAreImagesOfEqualTime) {
   const EurocSequence sequence(folder.path());
   EXPECT_EQ(sequence.folder(), folder.path());
   ASSERT_EQ(sequence.frames().size(), 2u);  // a nanosecond apart is not the same exposure
+  EXPECT_EQ(sequence.images_without_partner(), 1u);
   EXPECT_NEAR(sequence.frames()[0].timestamp_s, 1403636579.763555584, 1e-6);
   EXPECT_NEAR(sequence.frames()[1].timestamp_s - sequence.frames()[0].timestamp_s, 0.1, 1e-6);
   const StereoImages images = sequence.load(1);
@@ -211,7 +212,7 @@ TEST_F(EurocSequenceTest, SensorFilesThatMakeNoSenseAreNamed) {
   EXPECT_EQ(message_with("[50.5, 50, 32, 23.5]", "50.5"),
             file + ": intrinsics is not a list, expected fu fv cu cv in pixels");
   EXPECT_EQ(message_with("[50.5, 50, 32, 23.5]", "[50.5, fv, 32, 23.5]"),
-            file + ": intrinsics has an entry that is not a number, expected fu fv cu cv in pixels");
+            file + ": intrinsics has an entry that is 'fv', expected fu fv cu cv in pixels");
   EXPECT_EQ(message_with("[50.5, 50,", "[50.5, -50,"),
             file + ": intrinsics holds -50, expected positive focal lengths in pixels");
   EXPECT_EQ(message_with("camera_model: pinhole", "camera_model: omni"),

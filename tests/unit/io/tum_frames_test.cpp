@@ -108,6 +108,24 @@ TEST(ReadTumFrames, ManyImagesAtNearlyTheSameTimeTakeNoTime) {
   for (std::size_t i = 0; i < kImages; ++i) EXPECT_EQ(pairs[i], (std::pair{i, i}));
 }
 
+// Depth at half the rate of colour.
+TEST(ReadTumFrames, CountsImagesThatHaveNoDepthOfTheirTime) {
+  const TemporaryFolder folder;
+  std::string rgb, depth;
+  for (int i = 0; i < 10; ++i) {
+    const std::string row = std::to_string(0.1 * i) + " i/" + std::to_string(i) + '\n';
+    folder.write("i/" + std::to_string(i), "");
+    rgb += row;
+    if (i % 2 == 0) depth += row;
+  }
+  folder.write("rgb.txt", rgb);
+  folder.write("depth.txt", depth);
+  const TumFrames list = list_tum_frames(folder.path());
+  EXPECT_EQ(list.frames.size(), 5u);
+  EXPECT_EQ(list.images_without_depth, 5u);
+  EXPECT_EQ(list.missing_files, 0u);
+}
+
 TEST(ReadTumFrames, LeavesOutWhatIsMissingUpToATenth) {
   const TemporaryFolder folder;
   std::string rgb, depth, associations;
@@ -129,6 +147,7 @@ TEST(ReadTumFrames, LeavesOutWhatIsMissingUpToATenth) {
     EXPECT_EQ(list.frames.size(), 18u);
     EXPECT_EQ(list.missing_files, 2u);
     EXPECT_EQ(list.frames[3].timestamp_s, 0.4);
+    EXPECT_EQ(list.images_without_depth, has_associations ? 0u : 1u) << "rgb/7";
     EXPECT_EQ(read_tum_frames(folder.path()).size(), 18u);
   }
   for (const char* more : {"rgb/4", "rgb/5", "rgb/6"}) std::filesystem::remove(folder.path() / more);

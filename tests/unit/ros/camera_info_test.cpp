@@ -93,6 +93,20 @@ TEST(CameraInfo, WhatHasNoModelIsRefused) {
   EXPECT_NE(error_of([&] { camera_of(broken); }), "no error");
 }
 
+// Half-way to the border of 640 x 480, 160 px from the middle: fx of 525 and 526 are 160 / 525 = 0.305 px apart there,
+// 525 and 525.8 are 0.244 px.
+TEST(CameraInfo, CamerasShowAlikeWithinTheNoiseOfACorner) {
+  const auto camera = [](double fx, double cx, stillpoint::AnyDistortion lens = {stillpoint::NoDistortion{}}) {
+    return stillpoint::Camera(fx, 525, cx, 240, 640, 480, std::move(lens));
+  };
+  EXPECT_TRUE(show_alike(camera(525, 320), camera(525.8, 320)));
+  EXPECT_FALSE(show_alike(camera(525, 320), camera(526, 320)));
+  EXPECT_TRUE(show_alike(camera(525, 320), camera(525, 320.2)));
+  EXPECT_FALSE(show_alike(camera(525, 320), camera(525, 320.3)));
+  EXPECT_FALSE(show_alike(camera(525, 320), camera(525, 320, {stillpoint::BrownConrady{0.1, 0, 0, 0, 0}})));
+  EXPECT_FALSE(show_alike(camera(525, 320), stillpoint::Camera(525, 525, 320, 240, 640, 360)));
+}
+
 TEST(CameraInfo, IsTheSameCameraWhateverTheTime) {
   CameraInfo later = info();
   later.stamp_s = 2;

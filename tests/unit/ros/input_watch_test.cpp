@@ -53,6 +53,16 @@ TEST_F(InputWatchTest, SaysSinceWhenNothingComes) {
       << "a camera_info may come once for ever";
 }
 
+TEST_F(InputWatchTest, ACameraOfHalfAHertzIsNotSilentBetweenItsFrames) {
+  for (const double now_s : {5.0, 7.0}) {
+    see_all(now_s);
+    watch.paired(now_s);
+  }
+  EXPECT_EQ(watch.missing(11.9, pairing), Sentences());
+  EXPECT_EQ(watch.missing(12.1, pairing),
+            (Sentences{"no image on /rgb for 5.100 s", "no depth on /depth for 5.100 s"}));
+}
+
 TEST_F(InputWatchTest, SaysThatClocksDiffer) {
   see_all(5);
   pairing.add_image(image_at(100.0));

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <opencv2/imgproc.hpp>
@@ -178,8 +179,22 @@ TEST(MaskSession, AnotherCameraBeginsAnew) {
   EXPECT_EQ(session.process(frames()[1].messages).status, stillpoint::Status::ok);
   PairedFrame other = frames()[2].messages;
   other.camera.k[0] += 1;
-  EXPECT_EQ(session.process(other).status, stillpoint::Status::first_frame);
+  const FrameAnswer& answer = session.process(other);
+  EXPECT_EQ(answer.status, stillpoint::Status::first_frame);
+  EXPECT_EQ(std::string(answer.hint), "camera_info is of another camera than before: the filter began anew.");
   EXPECT_EQ(session.filter.camera.fx(), other.camera.k[0]);
+}
+
+// A phone's focus, and a driver that fills a matrix nobody uses: the history fits.
+TEST(MaskSession, ACalibrationThatChangesInItsLastDigitsIsTheSameCamera) {
+  MaskSession session;
+  session.options.depth_units_per_metre = kDepthUnit;
+  for (std::size_t i = 0; i < 3; ++i) {
+    PairedFrame frame = frames()[i].messages;
+    frame.camera.k[0] += 1e-3 * static_cast<double>(i);
+    frame.camera.p[3] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(session.process(frame).status, i == 0 ? stillpoint::Status::first_frame : stillpoint::Status::ok) << i;
+  }
 }
 
 TEST(MaskSession, RectifiedImagesHaveTheCameraOfP) {
