@@ -38,6 +38,8 @@ struct Contents {
   bool has_projection = false;  ///< P is the camera's matrix, and K is another's
   int depthless_frame = -1;
   int small_frame = -1;  ///< whose image is of half the size, and whose camera_info says so
+  int refocused_frame = -1;
+  double refocused_by_px = 0;  ///< what is added to its fx
 };
 
 template <class Message>
@@ -91,6 +93,7 @@ void write_bag(const fs::path& file, const Contents& contents = {}) {
     info.height = static_cast<std::uint32_t>(camera.height());
     if (is_small) info.width = image_message.width, info.height = image_message.height;
     info.K = {camera.fx(), 0, camera.cx(), 0, camera.fy(), camera.cy(), 0, 0, 1};
+    if (i == contents.refocused_frame) info.K[0] += contents.refocused_by_px;
     info.distortion_model = contents.distortion_model;
     info.D = contents.distortion;
     if (contents.has_projection) {
@@ -275,6 +278,18 @@ TEST_F(Bags, ImagesOfAnotherSizeThanTheCameraAreAnError) {
   system_test::write_text(camera,
                           "fx: 500\nfy: 500\ncx: 319.5\ncy: 239.5\nwidth: 640\nheight: 480\ndepth_factor: 1000\n");
   expect_named_error("--camera " + quoted(camera), {"found 160 x 120 pixels, expected the camera's 640 x 480"});
+}
+
+// Of 131.25 px, 1 is 40 / 131.25 = 0.305 px half-way to the border of 160; 0.1 is 0.03.
+TEST_F(Bags, IntrinsicsThatChangeAreAnErrorUnlessByLessThanACornersNoise) {
+  Contents contents;
+  contents.refocused_frame = 2;
+  contents.refocused_by_px = 0.1;
+  write_bag(bag, contents);
+  expect_run();
+  contents.refocused_by_px = 1;
+  write_bag(bag, contents);
+  expect_named_fresh_error("", {"small.bag: camera_info at ", " s: found other intrinsics than the first ones"});
 }
 
 }  // namespace
