@@ -225,7 +225,7 @@ class CoarseAlignment {
       const double length = std::max(turn.norm(), shift.norm());
       if (settled || !(length > kShortestStep)) break;
       const double share = length > kLongestStep ? kLongestStep / length : 1.0;
-      pose = orthonormalized(make_pose(rotation_from_vector(share * turn), share * shift) * pose);
+      pose = orthonormalized(composed(make_pose(rotation_from_vector(share * turn), share * shift), pose));
     }
     return estimate;
   }

@@ -74,7 +74,7 @@ void look_for_surfaces(const SurfaceSearch& search, const FrameHistory& history,
   for (OlderFrame& older : frames) {
     const PastFrame& past = history.back(older.age);
     const FrameView view = past.view();
-    older.reference_from_current = orthonormalized(inverted(past.filter_from_camera) * filter_from_current);
+    older.reference_from_current = orthonormalized(composed(inverted(past.filter_from_camera), filter_from_current));
     older.of_surface.clear();
     for (const SurfaceCell& cell : cells)
       older.of_surface.push_back(search.look(cell, view, older.reference_from_current, camera, noise));

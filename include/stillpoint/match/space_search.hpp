@@ -145,7 +145,7 @@ class SpaceSearch {
       const PooledDepth& view = history.back(age);
       const double elapsed_s = timestamp_s - view.timestamp_s;
       if (!(elapsed_s >= kNewest_s)) continue;
-      const Pose view_from_current = orthonormalized(inverted(view.filter_from_camera) * filter_from_current);
+      const Pose view_from_current = orthonormalized(composed(inverted(view.filter_from_camera), filter_from_current));
       visit(elapsed_s, [&](const Vector3d& point) {
         const Vector3d there = view_from_current * point;
         if (!(there.z() > kNearest_m)) return Space::unknown;

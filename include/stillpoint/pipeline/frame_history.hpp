@@ -56,7 +56,7 @@ class FrameHistory {
   /// The filter's own chained pose of the frame to which `motion` leads from the last one.
   Pose filter_from_current(const Motion& motion) const {
     return empty() ? Pose::Identity()
-                   : orthonormalized(back(1).filter_from_camera * inverted(motion.current_from_reference));
+                   : orthonormalized(composed(back(1).filter_from_camera, inverted(motion.current_from_reference)));
   }
 
   /// Whether the frame before the last is none of these: the last one took its place.

@@ -38,7 +38,7 @@ class MotionExpectation {
     if (!is_rigid(world_from_camera)) return std::nullopt;
     world_from_last_ = world_from_camera;
     if (!world_from_second_last_) return std::nullopt;
-    const Pose moved = inverted(world_from_camera) * *world_from_second_last_;
+    const Pose moved = composed(inverted(world_from_camera), *world_from_second_last_);
     if (is_plausible_motion(moved)) last_motion_ = orthonormalized(moved);
     return moved;
   }

@@ -35,7 +35,7 @@ struct Inertia {
   /// @param prior                   one to which this `applies`
   /// @return                        the likelier motion in between
   Pose fuse(const Pose& current_from_reference, Matrix6d& information, const MotionPrior& prior) const {
-    const Pose off = *prior.predicted * inverted(current_from_reference);
+    const Pose off = composed(*prior.predicted, inverted(current_from_reference));
     const Vector6d expected =
         joined(vector_from_rotation(rotation_of(off)), translation_of(off));  // after what was found
     Matrix6d velocity = information_of(prior.elapsed_s);
@@ -44,7 +44,7 @@ struct Inertia {
     information += velocity;
     const Vector6d step = Cholesky<6>(information).solve(velocity * expected);
     const Pose fused = make_pose(rotation_from_vector(rotation_part(step)), translation_part(step));
-    return orthonormalized(fused * current_from_reference);
+    return orthonormalized(composed(fused, current_from_reference));
   }
 
  private:

@@ -138,7 +138,7 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
     const Vector3d turn = rotation_part(x), shift = translation_part(x);
     if (!(turn.norm() < kLongestStep) || !(shift.norm() < kLongestStep)) return information;
     const Pose back = inverted(make_pose(rotation_from_vector(turn), shift));
-    for (Pose& pose : poses) pose = orthonormalized(pose * back);
+    for (Pose& pose : poses) pose = orthonormalized(composed(pose, back));
     information = normal;
     settled_at = x.dot(normal * x) < detail::kNegligibleStep ? cutoff : 0;
   }

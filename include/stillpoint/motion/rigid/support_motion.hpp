@@ -132,14 +132,15 @@ class SupportMotion {
     weighted.support = problem.support(weighted.reference_from_current);
     const Hypothesis chosen = with_all_points(weighted, kNearCutoffs, problem);
     Matrix6d information = chosen.information;
-    const Pose step = inverted(chosen.reference_from_current) * frames[0].reference_from_current;
-    Pose refined = orthonormalized(step * motion.current_from_reference);
+    const Pose step = composed(inverted(chosen.reference_from_current), frames[0].reference_from_current);
+    Pose refined = orthonormalized(composed(step, motion.current_from_reference));
     if (inertia.applies(prior)) refined = inertia.fuse(refined, information, prior);
-    const Pose back = motion.current_from_reference * inverted(refined);  // the old current camera from the new one
+    const Pose back =
+        composed(motion.current_from_reference, inverted(refined));  // the old current camera from the new one
     motion.current_from_reference = refined;
     set_covariance(information, motion);
     for (OlderFrame& frame : frames)
-      frame.reference_from_current = orthonormalized(frame.reference_from_current * back);
+      frame.reference_from_current = orthonormalized(composed(frame.reference_from_current, back));
   }
 
  private:

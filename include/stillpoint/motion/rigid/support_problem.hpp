@@ -40,7 +40,7 @@ class SupportProblem {
         camera_(camera),
         limit_(inlier_sigmas * inlier_sigmas) {
     const Pose current_from_first = inverted(poses[0]);
-    for (std::size_t f = 0; f < poses.size(); ++f) links_[f] = poses[f] * current_from_first;
+    for (std::size_t f = 0; f < poses.size(); ++f) links_[f] = composed(poses[f], current_from_first);
   }
 
   span<const PointConstraint> points() const noexcept { return points_; }
@@ -87,7 +87,7 @@ class SupportProblem {
   }
 
   double squared(const PointConstraint& point, const Pose& pose) const {
-    return squared_residual(point, point.frame == 0 ? pose : Pose(links_[point.frame] * pose), camera_);
+    return squared_residual(point, point.frame == 0 ? pose : composed(links_[point.frame], pose), camera_);
   }
 
   /// The support of a pose that all points fit exactly.
@@ -172,7 +172,7 @@ class SupportProblem {
   /// From the pose to the first older frame to those of all.
   void spread(const Pose& pose) const {
     poses_[0] = pose;
-    for (std::size_t f = 1; f < poses_.size(); ++f) poses_[f] = orthonormalized(links_[f] * pose);
+    for (std::size_t f = 1; f < poses_.size(); ++f) poses_[f] = orthonormalized(composed(links_[f], pose));
   }
 
   span<PointConstraint> points_;
