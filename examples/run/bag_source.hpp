@@ -110,7 +110,7 @@ class BagSource : public FrameSource {
 
   void require_one_camera(const stillpoint_ros::PairedFrame& paired) const {
     if (!has_camera_info_) return;
-    if (show_alike(camera_.camera, stillpoint_ros::camera_of(paired.camera, is_rectified_))) return;
+    if (stillpoint_ros::show_alike(camera_.camera, stillpoint_ros::camera_of(paired.camera, is_rectified_))) return;
     throw stillpoint::Error("camera_info at " + stillpoint::format_timestamp(paired.camera.stamp_s) +
                             " s: found other intrinsics than the first ones, expected one camera for all frames");
   }

@@ -87,10 +87,12 @@ TEST_F(YamlFileTest, NumbersAndWordsAreToldApart) {
   EXPECT_EQ(fields.text("e", "x"), "word");
   const std::pair<const char*, const char*> no_numbers[] = {
       {"d", "is \"5\", in quotes"}, {"e", "is 'word'"}, {"i", "is empty"}, {"j", "is a list"}, {"k", "is a map"}};
-  for (const auto& [field, is_what] : no_numbers)
+  for (const auto& [name, is_what] : no_numbers) {
+    const char* const field = name;
     EXPECT_NE(error_of([&] { fields.number(field, "x"); }).find(std::string(field) + ' ' + is_what + ", expected x"),
               std::string::npos)
         << field;
+  }
   for (const char* field : {"g", "h"})
     EXPECT_NE(error_of([&] { fields.number(field, "x"); }).find("is not finite"), std::string::npos);
   EXPECT_NE(error_of([&] { fields.text("a", "x"); }).find(":1: a is not a word"), std::string::npos);
