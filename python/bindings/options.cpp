@@ -132,8 +132,6 @@ class SetOption {
             return '\'' + value + '\'';
           else if constexpr (std::is_same_v<V, bool>)
             return value ? "True" : "False";
-          else if constexpr (std::is_same_v<V, double>)  // as Python writes it: 24.0 is no whole number
-            return py::str(py::float_(value));
           else
             return stillpoint::option_text(value);
         },
@@ -199,9 +197,6 @@ class Options {
         each_option(filter, setter);
       });
     }
-    for (const auto& [option, value] : table())
-      if (option.compare(0, path_.size() + name.size() + 1, path_ + name + '.') == 0)
-        throw py::attribute_error(path_ + name + " is a group of options, expected one of them to be set: " + option);
     throw py::attribute_error(unknown(name));
   }
 
