@@ -61,11 +61,8 @@ class StereoSource : public FrameSource {
  private:
   /// A pair that is far apart with a narrow view cannot see as near as is usual: the nearest depth that it can.
   static stillpoint::StereoDepth::Options depth_options(const stillpoint::Camera& camera, double baseline_m) {
-    constexpr double kStep_px = 16.0;  // what StereoDepth counts disparities in
-    const double widest_px = kStep_px * std::ceil(camera.width() / kStep_px - 1.0), rounded_up = 1.0 + 1e-9;
     stillpoint::StereoDepth::Options options;
-    if (widest_px > 0)
-      options.nearest_m = std::max(options.nearest_m, camera.fx() * baseline_m / widest_px * rounded_up);
+    options.nearest_m = std::max(options.nearest_m, stillpoint::StereoDepth::least_nearest_m(camera, baseline_m));
     return options;
   }
 

@@ -206,8 +206,8 @@ function listReasons() {
   }
 }
 
-/// Status and warnings with what they mean.
-function describe(frame, index) {
+/// Status and warnings with what they mean, and of which frame the shown image is.
+function describe(frame, index, shown) {
   const status = byId("status");
   status.replaceChildren();
   const line = (name, meaning) => {
@@ -220,13 +220,12 @@ function describe(frame, index) {
   for (const warning of frame.warnings) line(warning, run.terms.warnings[warning]);
   const movers = moversIn(index).map(([mover, seen]) => moverLabel(mover, seen));
   if (movers.length) line("Movers:", `${movers.join(", ")}.`);
-  const shown = pictureOf(index);
   if (shown && shown.frame !== index) status.append(`The image is of frame ${run.frames[shown.frame].number}.`);
 }
 
 listeners.push((index) => {
-  describe(run.frames[index], index);
   const next = pictureOf(index);
+  describe(run.frames[index], index, next);
   if (next === picture || !next) return;
   picture = next;
   features = featuresOf(picture);

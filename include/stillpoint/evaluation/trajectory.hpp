@@ -14,6 +14,7 @@
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/options.hpp"
 
 namespace stillpoint {
 
@@ -72,11 +73,13 @@ inline std::size_t nearest_index(const std::vector<double>& ordered, std::size_t
 /// longer trajectory may be taken twice.
 /// @param max_time_difference_s  largest difference that still counts as the same moment, inclusive.
 /// @return        pairs in the order of time; empty where nothing fits.
-/// @throws Error if a timestamp is not finite or before its predecessor.   Cost O(n log m).
+/// @throws Error if a timestamp is not finite or before its predecessor, or the limit is no time.   Cost O(n log m).
 inline AssociatedTrajectories associate(const Trajectory& reference, const Trajectory& estimate,
                                         double max_time_difference_s = 0.01) {
   detail::require_ordered(reference, "reference trajectory");
   detail::require_ordered(estimate, "estimated trajectory");
+  if (!(max_time_difference_s >= 0))
+    throw Error("max_time_difference_s is " + option_text(max_time_difference_s) + ", expected 0 or more seconds");
   const bool reference_is_shorter = reference.size() < estimate.size();
   const Trajectory& shorter = reference_is_shorter ? reference : estimate;
   const Trajectory& longer = reference_is_shorter ? estimate : reference;

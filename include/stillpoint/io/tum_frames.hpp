@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/options.hpp"
 #include "stillpoint/io/listed_files.hpp"
 #include "stillpoint/io/table_reader.hpp"
 
@@ -122,8 +123,8 @@ struct TumFrames {
 /// @param max_time_difference_s  pairs of rgb.txt and depth.txt must be nearer in time than this (the benchmark's 20
 /// ms).
 /// @return        at least one frame, times rising.
-/// @throws Error if a list is missing or says nothing, or more than a tenth of the images that it names is missing;
-///         with file and line for a row of other columns or a time that does not rise.
+/// @throws Error if the limit is no time, a list is missing or says nothing, or more than a tenth of the images that it
+///         names is missing; with file and line for a row of other columns or a time that does not rise.
 inline TumFrames list_tum_frames(const std::filesystem::path& folder, double max_time_difference_s = 0.02) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(folder, ignored))
@@ -149,6 +150,8 @@ inline TumFrames list_tum_frames(const std::filesystem::path& folder, double max
     return list;
   }
 
+  if (!(max_time_difference_s > 0))
+    throw Error("max_time_difference_s is " + option_text(max_time_difference_s) + ", expected more than 0 seconds");
   const auto colour = detail::read_image_list(folder, "rgb.txt", list.missing_files);
   const auto depth = detail::read_image_list(folder, "depth.txt", list.missing_files);
   for (const auto& [i, j] : detail::associate_images(colour, depth, max_time_difference_s))

@@ -20,6 +20,7 @@
 #include "stillpoint/core/distortion.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/stereo/image_pair.hpp"
 
 namespace stillpoint {
 
@@ -42,11 +43,9 @@ class StereoRectification {
   /// @param left, right  images of the cameras' size, of any type
   /// @throws Error if one is of another size.
   void rectify(const cv::Mat& left, const cv::Mat& right, cv::Mat& rectified_left, cv::Mat& rectified_right) const {
-    for (const cv::Mat* image : {&left, &right})
-      if (image->cols != camera_.width() || image->rows != camera_.height())
-        throw Error(std::string("stereo: found a ") + (image == &left ? "left" : "right") + " image of " +
-                    std::to_string(image->cols) + " x " + std::to_string(image->rows) +
-                    " pixels, expected the cameras' " + size_of(camera_));
+    detail::require_pair(left, right, "the cameras' " + size_of(camera_), [&](const cv::Mat& image) {
+      return image.cols == camera_.width() && image.rows == camera_.height();
+    });
     cv::remap(left, rectified_left, left_map_[0], left_map_[1], cv::INTER_LINEAR);
     cv::remap(right, rectified_right, right_map_[0], right_map_[1], cv::INTER_LINEAR);
   }

@@ -20,6 +20,7 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/stereo/image_pair.hpp"
 
 namespace stillpoint {
 
@@ -60,8 +61,7 @@ class StereoDepth {
             options.uniqueness_percent, "0 to 100");
     require(options.speckle_pixels >= 0, "speckle_pixels", options.speckle_pixels, "0 or more pixels");
     require(options.speckle_step_px >= 0, "speckle_step_px", options.speckle_step_px, "0 or more pixels");
-    constexpr double kStep = 16.0;  // what SGBM counts disparities in
-    const double most_px = kStep * std::ceil(camera.fx() * baseline_m / options.nearest_m / kStep);
+    const double most_px = kStep_px * std::ceil(camera.fx() * baseline_m / options.nearest_m / kStep_px);
     require(most_px < camera.width(), "nearest_m", options.nearest_m,
             "a depth at which the disparity, " + option_text(most_px) + " px, is within the image");
     constexpr int kSmallStep = 8,
@@ -71,6 +71,14 @@ class StereoDepth {
                                       kLargeStep * block_area, options.left_right_px, kPrefilterCap,
                                       options.uniqueness_percent, options.speckle_pixels, options.speckle_step_px,
                                       cv::StereoSGBM::MODE_SGBM_3WAY);
+  }
+
+  /// The least depth in metres that a pair can be asked for: there the disparity is as wide as the image. Infinity
+  /// where an image is too narrow for any.
+  static double least_nearest_m(const Camera& camera, double baseline_m) {
+    const double widest_px = kStep_px * (std::ceil(camera.width() / kStep_px) - 1.0);  // below the width
+    constexpr double kRoundedUp = 1.0 + 1e-9;  // else the quotient may be a step more
+    return camera.fx() * baseline_m / widest_px * kRoundedUp;
   }
 
   const Options& options() const { return options_; }
@@ -83,12 +91,8 @@ class StereoDepth {
   /// @param depth_m      gets CV_32FC1, metres along the optical axis, 0 where there is none
   /// @throws Error if an image is of another type or size.
   void compute(const cv::Mat& left, const cv::Mat& right, cv::Mat& depth_m) {
-    for (const cv::Mat* image : {&left, &right})
-      if (image->type() != CV_8UC1 || image->size() != size_)
-        throw Error(std::string("stereo: found a ") + (image == &left ? "left" : "right") + " image of " +
-                    std::to_string(image->cols) + " x " + std::to_string(image->rows) + " pixels and " +
-                    std::to_string(image->channels()) + " channel(s), expected " + std::to_string(size_.width) + " x " +
-                    std::to_string(size_.height) + ", gray");
+    detail::require_pair(left, right, std::to_string(size_.width) + " x " + std::to_string(size_.height) + ", gray",
+                         [&](const cv::Mat& image) { return image.type() == CV_8UC1 && image.size() == size_; });
     match(left, right, left_disparity_);
     // The right image's disparities are those of the mirrored pair: what is left in it becomes right.
     cv::flip(left, mirrored_left_, kSideways);
@@ -111,6 +115,7 @@ class StereoDepth {
  private:
   // SGBM counts costs in 16 bit: of an ideal pair it measures 99.9 % with 11, 97 % with 21, 0.4 % with 31.
   static constexpr int kLargestBlock_px = 11;
+  static constexpr double kStep_px = 16.0;  ///< SGBM counts disparities in these
   static constexpr int kPrefilterCap = 31;  ///< of the horizontal gradient that SGBM compares beside the grey levels
 
   template <class Value>

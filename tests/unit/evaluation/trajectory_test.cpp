@@ -48,6 +48,13 @@ TEST(Associate, LimitIsInclusive) {
   EXPECT_TRUE(beyond.estimate.empty());
 }
 
+TEST(Associate, LimitIsATime) {
+  for (const double limit_s : {-0.01, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(associate(at_times({0.0}), at_times({0.0}), limit_s), Error) << limit_s;
+  EXPECT_EQ(associate(at_times({0.0, 5.0}), at_times({0.0, 0.0, 9.0}), 0.0).reference.size(), 1u);
+  EXPECT_EQ(associate(at_times({0.0}), at_times({9.0}), std::numeric_limits<double>::infinity()).reference.size(), 1u);
+}
+
 TEST(Associate, TieGoesToTheEarlierAndEqualTimesToTheFirst) {
   const auto tie = associate(at_times({0.0, 0.5, 1.0}), at_times({0.25}), 1.0);
   EXPECT_EQ(indices(tie.reference), std::vector<int>{0});

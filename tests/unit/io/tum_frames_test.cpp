@@ -124,6 +124,8 @@ TEST(ReadTumFrames, CountsImagesThatHaveNoDepthOfTheirTime) {
   EXPECT_EQ(list.frames.size(), 5u);
   EXPECT_EQ(list.images_without_depth, 5u);
   EXPECT_EQ(list.missing_files, 0u);
+  EXPECT_EQ(error_of([&] { list_tum_frames(folder.path(), -0.02); }),
+            "max_time_difference_s is -0.02, expected more than 0 seconds");
 }
 
 TEST(ReadTumFrames, LeavesOutWhatIsMissingUpToATenth) {

@@ -121,9 +121,9 @@ TEST(StereoRectification, ImagesOfAnotherSizeAreNamed) {
   const cv::Mat whole(kHeight, kWidth, CV_8UC1, cv::Scalar(255)), half(kHeight / 2, kWidth / 2, CV_8UC1);
   cv::Mat left, right;
   EXPECT_EQ(error_of([&] { rectification.rectify(half, whole, left, right); }),
-            "stereo: found a left image of 160 x 120 pixels, expected the cameras' 320 x 240");
+            "stereo: found a left image of 160 x 120 pixels and 1 channel(s), expected the cameras' 320 x 240");
   EXPECT_EQ(error_of([&] { rectification.rectify(whole, half, left, right); }),
-            "stereo: found a right image of 160 x 120 pixels, expected the cameras' 320 x 240");
+            "stereo: found a right image of 160 x 120 pixels and 1 channel(s), expected the cameras' 320 x 240");
 }
 
 TEST(StereoRectification, PairsThatAreNoneAreNamed) {

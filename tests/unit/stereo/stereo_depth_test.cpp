@@ -208,6 +208,18 @@ TEST(StereoDepth, OptionsThatMakeNoSenseAreNamed) {
             "stereo: nearest_m is 0.4, expected a depth at which the disparity, 336 px, is within the image");
 }
 
+TEST(StereoDepth, OffersTheNearestDepthThatAPairCanBeAskedFor) {
+  // 320 columns are 20 steps of 16 px: 304 px are the widest disparity below them, of 262.5 * 0.5 / 304 m.
+  const double least_m = StereoDepth::least_nearest_m(camera(), 0.5);
+  EXPECT_NEAR(least_m, 0.431743, 1e-6);
+  StereoDepth::Options options;
+  options.nearest_m = least_m;
+  EXPECT_EQ(error_of([&] { StereoDepth(camera(), 0.5, options); }), "no error");
+  options.nearest_m = least_m * (1 - 1e-6);
+  EXPECT_NE(error_of([&] { StereoDepth(camera(), 0.5, options); }), "no error");
+  EXPECT_FALSE(std::isfinite(StereoDepth::least_nearest_m(Camera(20, 20, 8, 8, 16, 16), 0.5)));
+}
+
 TEST(StereoDepth, MatchingOptionsHaveRanges) {
   const auto message = [](int StereoDepth::Options::*option, int value) {
     StereoDepth::Options options;
