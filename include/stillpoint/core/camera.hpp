@@ -4,7 +4,9 @@
 
 // The camera: pixels to rays and back, with or without lens distortion.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -32,6 +34,7 @@ class PinholeCamera {
     require(height > 0, "height", height, "a positive number of pixels");
     // A point that every coefficient moves: one that is not finite shows, whatever the model.
     require(is_finite(distortion_.distort(Vector2d(0.1, 0.2))), "distortion", "not finite", "finite coefficients");
+    if (!has_no_lens(distortion_)) fold_radius_ = fold_radius(distortion_);
   }
 
   double fx() const noexcept { return fx_; }
@@ -60,8 +63,13 @@ class PinholeCamera {
   }
 
   /// Undistorted pixel to the pixel in the image. Without a lens it is the same: no division by the focal lengths.
+  /// Where the lens's model folds back, a ray is as many times farther out than the last one before as it is on the
+  /// plane.
   Vector2d distort(const Vector2d& pixel) const {
-    return has_no_lens(distortion_) ? pixel : to_pixel(distortion_.distort(to_plane(pixel)));
+    if (has_no_lens(distortion_)) return pixel;
+    const Vector2d ideal = to_plane(pixel);
+    const double beyond = ideal.norm() / fold_radius_;
+    return to_pixel(beyond > 1.0 ? Vector2d(beyond * distortion_.distort(ideal / beyond)) : distortion_.distort(ideal));
   }
 
   /// Pixel in the image to the undistorted pixel.
@@ -84,7 +92,30 @@ class PinholeCamera {
   double fx_, fy_, cx_, cy_;
   int width_, height_;
   Distortion distortion_;
+  double fold_radius_ = std::numeric_limits<double>::infinity();
 };
+
+template <class Camera>
+struct is_pinhole_camera : std::false_type {};
+template <class Distortion>
+struct is_pinhole_camera<PinholeCamera<Distortion>> : std::true_type {};
+
+/// How many undistorted pixels one pixel of the image is at an undistorted pixel, in the direction in which it is most:
+/// 1 to 1000. Noise of the image grows by it on the plane: 75 degrees aside, an equidistant fisheye's by 15.
+template <class AnyCamera>
+double lens_stretch(const AnyCamera& camera, const Vector2d& pixel) {
+  if constexpr (is_pinhole_camera<AnyCamera>::value)
+    if (has_no_lens(camera.distortion())) return 1.0;
+  const Vector2d at = camera.distort(pixel);
+  const Vector2d along_x = camera.distort(pixel + Vector2d(1, 0)) - at,
+                 along_y = camera.distort(pixel + Vector2d(0, 1)) - at;
+  // 1 over the lesser singular value of the 2 x 2 matrix of both.
+  const double sum = along_x.squaredNorm() + along_y.squaredNorm();
+  const double determinant = along_x.x() * along_y.y() - along_x.y() * along_y.x();
+  const double least_sq = 0.5 * (sum - std::sqrt(std::max(0.0, sum * sum - 4 * determinant * determinant)));
+  constexpr double kMost = 1000.0;
+  return least_sq < 1.0 ? 1.0 / std::sqrt(std::max(least_sq, 1.0 / (kMost * kMost))) : 1.0;
+}
 
 /// The camera of the policy sets we ship: its lens model is chosen at run time.
 using Camera = PinholeCamera<AnyDistortion>;

@@ -5,6 +5,7 @@
 // Lens distortion on the normalised image plane (z = 1): what the lens does to a ray, and its inverse.
 
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <variant>
 
@@ -115,6 +116,22 @@ struct AnyDistortion {
     return std::visit([&distorted](const auto& lens) { return lens.undistort(distorted); }, model);
   }
 };
+
+/// How far out on the plane z = 1 a lens shows wider rays ever farther out; infinity where it does so up to 89 degrees.
+/// Beyond it a polynomial that was fitted to what the camera sees folds back: to one with k1 = −0.37 and k2 = 0.2, what
+/// is 60 degrees aside would be in the middle of the image.
+template <class Distortion>
+double fold_radius(const Distortion& lens) {
+  constexpr double kStep = 2e-3, kWidest = 1.5533;  // radians
+  double growing = 0, farthest = 0;
+  for (double angle = kStep; angle < kWidest; angle += kStep) {
+    const double radius = std::tan(angle), shown = lens.distort(Vector2d(radius, 0.0)).norm();
+    if (!(shown > farthest)) return growing;
+    growing = radius;
+    farthest = shown;
+  }
+  return std::numeric_limits<double>::infinity();
+}
 
 /// Whether a lens leaves every pixel where it is, as in images that come rectified; most depth images do.
 template <class Distortion>

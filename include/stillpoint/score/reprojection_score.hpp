@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/motion.hpp"
@@ -114,7 +115,8 @@ class ReprojectionScore {
     const Vector3d there = frame.reference_from_current * point;
     double evidence = 0;
     if (std::isfinite(observation.dissimilarity)) {
-      const double sigma = place_sigma_px(observation.dissimilarity, frame.elapsed_s, motion);
+      const double sigma = lens_stretch(camera, Vector2d(observation.found.cast<double>())) *
+                           place_sigma_px(observation.dissimilarity, frame.elapsed_s, motion);
       const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
       const double spread = point.z() * matches.past_observations.inverse_depth_sigma[i];
       const double squared = squared_distance(there, translation_of(frame.reference_from_current), spread,

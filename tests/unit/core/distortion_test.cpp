@@ -123,6 +123,49 @@ TEST(Distortion, ALensIsTheLastArgumentOfACamera) {
   EXPECT_TRUE(has_no_lens(Camera(500, 500, 320, 240, 640, 480).distortion()));
 }
 
+/// As of KITTI's raw images and of a RealSense that ROS calibrated: both hold over the image, and fold back beyond it.
+Camera folding(double k1, double k2, double k3) {
+  return Camera(525, 525, 319.5, 239.5, 640, 480, BrownConrady{k1, k2, 0.0005, -0.0003, k3});
+}
+
+TEST(Distortion, WhatIsFartherAsideIsFartherOutAlsoWhereTheModelFoldsBack) {
+  for (const Camera& camera : {folding(-0.37, 0.2, -0.07), folding(0.1, -0.25, 0.0), folding(-0.3, 0.0, 0.0),
+                               freiburg1(), euroc(), fisheye()}) {
+    for (const double side : {0.0, 0.8, 2.5, 4.2}) {  // direction of the ray in the image, radians
+      double before_px = -1;
+      for (double aside = 0.0; aside < 1.55; aside += 0.002) {
+        const Vector3d ray(std::cos(side) * std::sin(aside), std::sin(side) * std::sin(aside), std::cos(aside));
+        const Vector2d pixel = camera.distort(camera.project(ray));
+        const double radius_px = (pixel - Vector2d(camera.cx(), camera.cy())).norm();
+        ASSERT_GE(radius_px, before_px - 0.02) << "fx " << camera.fx() << ", " << aside;  // the tangential part tilts
+        before_px = radius_px;
+      }
+    }
+  }
+}
+
+// k1 = -0.3: r (1 - 0.3 r²) grows until r² = 1 / 0.9, where it is 2 / 3 r. 60 degrees aside, r is 1.7321: 1.6432 times
+// that radius, and so 1.6432 * 525 * 2 / 3 * 1.0541 = 606.2 px out. The polynomial had 90.9 px, within the image.
+TEST(Distortion, BeyondTheFoldARayKeepsItsShare) {
+  const Camera camera(525, 525, 319.5, 239.5, 640, 480, BrownConrady{-0.3, 0, 0, 0, 0});
+  const Vector2d pixel = camera.distort(camera.project({std::sqrt(3.0), 0.0, 1.0}));
+  EXPECT_NEAR(pixel.x(), 319.5 + 606.2, 0.5);  // the fold is found within 2 mrad
+  EXPECT_EQ(pixel.y(), 239.5);
+  EXPECT_NEAR(fold_radius(BrownConrady{-0.3, 0, 0, 0, 0}), std::sqrt(1 / 0.9), 0.005);
+  EXPECT_FALSE(std::isfinite(fold_radius(BrownConrady{0.1, 0, 0, 0, 0})));
+  EXPECT_FALSE(std::isfinite(fold_radius(EquidistantFisheye{})));
+}
+
+// An equidistant fisheye shows θ: 1 rad of it is 1 / cos² θ on the plane, 4 times as much 60 degrees aside.
+TEST(Distortion, StretchIsThatOfThePlaneTowardsTheBorder) {
+  const Camera camera(300, 300, 320, 240, 640, 480, EquidistantFisheye{});
+  EXPECT_NEAR(lens_stretch(camera, {320, 240}), 1.0, 1e-5);
+  EXPECT_NEAR(lens_stretch(camera, {320 + 300 * std::sqrt(3.0), 240}), 4.0, 0.02);
+  EXPECT_NEAR(lens_stretch(camera, {320, 240 - 300 * std::sqrt(3.0)}), 4.0, 0.02);
+  EXPECT_EQ(lens_stretch(Camera(525, 525, 320, 240, 640, 480), {17.3, 11.9}), 1.0);
+  EXPECT_LE(lens_stretch(camera, {1e9, 0}), 1000.0);
+}
+
 TEST(Distortion, UndistortIsFiniteWhereThereIsNoInverse) {
   // k1 < 0 alone folds back where 1 + 3 k1 r² = 0: nothing is distorted to a radius beyond 2 r / 3.
   const BrownConrady folding{-0.5, 0, 0, 0, 0};

@@ -261,6 +261,37 @@ TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
   EXPECT_LE(outcome.worst_position_m, 0.01);
 }
 
+/// A camera that looks around at 50 degrees a second, from 0.9 rad to one side to 0.9 to the other.
+synthetic::Scene looking_around(const AnyDistortion& lens) {
+  synthetic::Scene scene = synthetic::pure_rotation(small(66));
+  const Camera& camera = scene.camera;
+  scene.camera = Camera(camera.fx(), camera.fy(), camera.cx(), camera.cy(), camera.width(), camera.height(), lens);
+  const Vector3d place(0.0, -1.42, -0.80);
+  scene.camera_path = {synthetic::Path({{0.0, place, -0.9, -0.19, 0.0}, {2.1, place, 0.9, -0.19, 0.0}}), {}};
+  return scene;
+}
+
+// What was before the camera is 60 degrees aside a second later, where the lens's polynomial folds back into the image.
+TEST(DefaultScenes, ALensThatFoldsBackBeyondTheImageDoesNoHarm) {
+  for (const BrownConrady& lens : {BrownConrady{0.1, -0.25, 0, 0, 0}, BrownConrady{-0.3, 0, 0, 0, 0}}) {
+    const synthetic::Scene scene = looking_around(lens);
+    FrameFilter<> filter(scene.camera);
+    const Outcome outcome = run(scene, filter);
+    expect_all_judged(outcome);
+    EXPECT_LE(outcome.score.false_positive_rate(), 0.01) << lens.k1;
+  }
+}
+
+// A fisheye of 150 degrees across: towards its border a pixel of the image is up to 15 on the plane z = 1.
+TEST(DefaultScenes, TheRimOfAFisheyeIsKept) {
+  synthetic::Scene scene = looking_around(EquidistantFisheye{});
+  scene.camera = Camera(122, 122, 159.5, 119.5, 320, 240, EquidistantFisheye{});
+  FrameFilter<> filter(scene.camera);
+  const Outcome outcome = run(scene, filter);
+  expect_all_judged(outcome);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.01);
+}
+
 TEST(DefaultScenes, AStationaryCameraDoesNoHarm) {
   const synthetic::Scene scene = synthetic::stationary_camera(small(40));
   FrameFilter<> filter(scene.camera);
