@@ -50,6 +50,7 @@ class EvidenceMemory {
   void recall(const Matches& matches, Remembered& remembered, Workspace& workspace) {
     refill(recalled_, matches.size(), Memory{});
     refill(recalled_of_cell_, matches.past_observations.surfaces.size(), Memory{});
+    if (matches.unjudged_s > 0) dynamic_.clear();  // what the map said was of the frame that was to come then
     if (pixel_.empty()) return;
     const Workspace::Scope scope(workspace);
     const float neighbour_px = matches.pixel_scale * kNeighbour_px;

@@ -99,7 +99,7 @@ class MoverTracking {
   /// Where the objects are now. Over a frame or two that were not judged the camera went as it goes now; after more of
   /// them nobody knows where it looks, and so where the objects are.
   void predict(const Motion& motion, const Matches& matches) {
-    constexpr double kLongestGuess_s = 0.1;
+    constexpr double kLongestGuess_s = 0.11;  // a frame at 10 Hz, and what its stamps are rounded by
     if (matches.unjudged_s > kLongestGuess_s) return objects_.clear();
     const double elapsed_s = matches.elapsed_s + matches.unjudged_s;
     const Pose current_from_judged = matches.unjudged_s > 0

@@ -116,7 +116,14 @@ struct TrackedObject {
     mover.has_rotation = mover.has_rotation && surely_turns;
     mover.covariance.setZero();
     mover.covariance.bottomRightCorner<3, 3>() = elapsed_s * elapsed_s * linear.covariance();
-    if (mover.has_rotation) mover.covariance.topLeftCorner<3, 3>() = elapsed_s * elapsed_s * angular.covariance();
+    if (mover.has_rotation) {  // it turns about its centroid, the covariance is of a turn about the camera
+      const Matrix3d turned = elapsed_s * elapsed_s * angular.covariance();
+      const Matrix3d shifted = skew(mover.centroid) * turned;
+      mover.covariance.topLeftCorner<3, 3>() = turned;
+      mover.covariance.bottomLeftCorner<3, 3>() = shifted;
+      mover.covariance.topRightCorner<3, 3>() = shifted.transpose();
+      mover.covariance.bottomRightCorner<3, 3>() += shifted * skew(mover.centroid).transpose();
+    }
     for (Vector3d& point : points) point = current_from_last * point;
   }
 

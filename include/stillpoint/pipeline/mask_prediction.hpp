@@ -41,6 +41,7 @@ class MaskPrediction {
   void remember(const Matches& matches, span<const Label> labels, double timestamp_s) {
     forget();
     timestamp_s_ = timestamp_s;
+    elapsed_s_ = matches.elapsed_s;
     reach_px_ = std::max(1, rounded(matches.pixel_scale * static_cast<float>(options.reach_px)));
     pixel_.reserve(matches.size());  // with the first frame, not with the first that moves
     seen_.reserve(matches.size());
@@ -99,12 +100,13 @@ class MaskPrediction {
     const ImageView image(nullptr, width, height, 0, PixelFormat::gray8);
     const Workspace::Scope scope(workspace);
     const auto reach_px = static_cast<float>(reach_px_);
+    const float step_s = ahead_s < kMostStretch * elapsed_s_ ? static_cast<float>(ahead_s) : 0.0f;
     const PixelGrid around(pixel_, reach_px, workspace, [](std::size_t) { return true; });
     const PixelGrid followed(pixel_, 2 * reach_px, workspace,
                              [&](std::size_t j) { return seen_[j].moves && seen_[j].followed; });
     for (std::size_t i = 0; i < seen_.size(); ++i)
       if (seen_[i].moves && is_finite(pixel_[i]))
-        mark(i, with_surface(i, around), static_cast<float>(ahead_s) * velocity_px(i, followed), depth, image);
+        mark(i, with_surface(i, around), step_s * velocity_px(i, followed), depth, image);
     drop_marked(std::clamp(margin_px, 0, width + height), mask);
   }
 
@@ -118,6 +120,8 @@ class MaskPrediction {
   };
   static constexpr int kCell_px = 4;
   static constexpr double kLongestGap_s = 1.0;  // farther ahead nothing is predicted
+  static constexpr double kMostStretch =
+      10.0;  // of the time in which they went: stamps next to each other tell no velocity
   static constexpr DepthTolerance kSameSurface{0.06};
 
   static bool one_surface(const Seen& seen, float other_m) noexcept {
@@ -204,6 +208,7 @@ class MaskPrediction {
   int columns_ = 0, rows_ = 0;
   int reach_px_ = 0;  // of the options, in pixels of this camera
   double timestamp_s_ = std::numeric_limits<double>::quiet_NaN();
+  double elapsed_s_ = 0.0;  // before it
 };
 
 template <class Visit>

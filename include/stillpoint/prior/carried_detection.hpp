@@ -55,6 +55,7 @@ class CarriedDetection {
   void correct(const ImageMotion& image, std::size_t fewest_features, Workspace& workspace) {
     if (!(image.elapsed_s > 0)) return;
     const auto elapsed_s = static_cast<float>(image.elapsed_s);
+    const float known = std::min(elapsed_s / kSurely_s, 1.0f);  // time stamps next to each other tell no velocity
     const Vector2f from = centre() - (predicted_ ? step_ : image_px_s_ * elapsed_s);
     Vector2f static_step = Vector2f::Zero();
     if (image.knows_camera()) static_step = image.static_step(from, depth_m());
@@ -62,12 +63,12 @@ class CarriedDetection {
     if (const std::optional<Step> measured = step_of_features(image, fewest_features, workspace)) {
       step = *measured;
       const Vector2f own = (step.displacement - static_step) / elapsed_s;
-      if (image.knows_camera()) own_px_s_ = is_followed_ ? 0.5f * (own_px_s_ + own) : own;
+      if (image.knows_camera()) own_px_s_ += (is_followed_ ? 0.5f * known : known) * (own - own_px_s_);
       is_followed_ = true;
     } else if (!image.knows_camera()) {
       return;
     }
-    image_px_s_ = step.displacement / elapsed_s;
+    image_px_s_ += known * (step.displacement / elapsed_s - image_px_s_);
     if (predicted_) move(step.displacement - step_, step.scale, image);
   }
 
@@ -108,6 +109,8 @@ class CarriedDetection {
   }
 
  private:
+  static constexpr float kSurely_s = 0.02f;  // a step of so long tells a velocity
+
   struct Step {
     Vector2f displacement;
     float scale;

@@ -120,6 +120,15 @@ TEST_F(EvidenceMemoryTest, AHostsMapIsEvidence) {
   EXPECT_TRUE(labels_[0].keep);
 }
 
+// The lens is covered for a while: whatever the map said was of the first of those frames.
+TEST_F(EvidenceMemoryTest, WhatTheMapSaidOfAFrameThatWasNotJudgedIsGone) {
+  frame(-3);
+  memory_.expect_dynamic(std::vector<std::uint8_t>{1});
+  unjudged_s_ = kElapsed_s;
+  frame(-3);
+  EXPECT_TRUE(labels_[0].keep);
+}
+
 TEST_F(EvidenceMemoryTest, WhatTheMapSaysOfAKeypointThatIsNoneIsSaidOfNoOther) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Feature> features = {{Vector2f(nan, nan)}, {Vector2f(60, 50)}};

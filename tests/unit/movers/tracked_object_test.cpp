@@ -33,5 +33,20 @@ TEST(TrackedObject, ASureTurnIsPredicted) {
   EXPECT_TRUE((object.mover.covariance.topLeftCorner<3, 3>().isApprox(0.01 * object.angular.covariance(), 1e-12)));
 }
 
+// It turns about its centroid: how far it turns says nothing of where the centroid goes, J = [−[c]×, I].
+TEST(TrackedObject, WhereItsCentroidGoesIsKnownAsWellAsItsVelocity) {
+  TrackedObject object;
+  object.surely_turns = object.mover.has_rotation = true;
+  object.mover.centroid = {0.4, -0.2, 3.0};
+  object.linear.correct({0.5, 0, 0}, 0.0025 * Matrix3d::Identity());
+  object.angular.correct({0, 1, 0}, 0.01 * Matrix3d::Identity());
+  object.predict(Pose::Identity(), 0.1);
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << -skew(object.mover.centroid), Matrix3d::Identity();
+  const Matrix3d of_centroid = jacobian * object.mover.covariance * jacobian.transpose();
+  EXPECT_TRUE(of_centroid.isApprox(0.01 * object.linear.covariance(), 1e-9)) << of_centroid;
+  EXPECT_TRUE(object.mover.covariance.isApprox(object.mover.covariance.transpose(), 1e-12));
+}
+
 }  // namespace
 }  // namespace stillpoint

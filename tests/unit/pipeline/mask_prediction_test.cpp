@@ -84,6 +84,18 @@ TEST_F(MaskPredictionTest, FeatureIsCarriedOnByItsOwnStep) {
   EXPECT_TRUE(drops(85, 62)) << "half the time, half the way";
 }
 
+// Two frames in a burst: 10 px within a millisecond are no velocity.
+TEST_F(MaskPredictionTest, StampsNextToEachOtherTellNoVelocity) {
+  add({70, 60}, {80, 60}, Verdict::dynamic);
+  matches.elapsed_s = 1e-3;
+  predict(0, kInterval_s + 0.033);
+  EXPECT_TRUE(drops(80, 60));
+  EXPECT_LE(dropped(), 64) << "one feature alone";
+  matches.elapsed_s = 0.005;
+  predict(0, kInterval_s + 0.004);
+  EXPECT_TRUE(drops(88, 60)) << "a fast camera";
+}
+
 TEST_F(MaskPredictionTest, NothingIsDroppedOfWhatStandsOrCouldNotBeTold) {
   add({70, 56}, {80, 60}, Verdict::kept);
   add({20, 20}, {20, 20}, Verdict::unknown);

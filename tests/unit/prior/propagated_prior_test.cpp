@@ -552,5 +552,41 @@ static_assert(std::is_same_v<decltype(std::declval<const PropagatedPrior&>().thi
               "objects() was things() in 0.1");
 #pragma GCC diagnostic pop
 
+// A driver delivers two frames in a burst: 6 px within a millisecond are no velocity.
+TEST(PropagatedPriorStamps, NextToEachOtherTakeNoBoxAway) {
+  constexpr double kInterval_s = 1.0 / 30.0;
+  const Camera camera(525, 525, 319.5, 239.5, 640, 480);
+  const cv::Mat gray(480, 640, CV_8UC1, cv::Scalar(100));
+  for (const double burst_s : {1e-6, 1e-3, 5e-3}) {
+    PropagatedPrior prior;
+    double before_s = 0.0;
+    for (int f = 0; f < 12; ++f) {
+      const double now_s = 1.0 + kInterval_s * f - (f == 6 ? kInterval_s - burst_s : 0.0);
+      const Box walker{200.0f + 6.0f * static_cast<float>(f), 100, 80, 200};
+      if (f == 0) prior.detections = {{walker, Mobility::dynamic, 1.0f}};
+      Regions regions;
+      prior.regions(FrameView(gray, DepthView(), now_s), regions);
+      ASSERT_EQ(regions.detections.size(), 1u) << burst_s << " s, frame " << f;
+      EXPECT_NEAR(regions.detections[0].box.x, walker.x, 40.0f) << burst_s << " s, frame " << f;
+      std::vector<Vector2f> pixels;
+      for (int k = 0; k < 80; ++k) {
+        const Vector2f step(static_cast<float>(9 * (k % 8)), static_cast<float>(35 * (k / 8 % 5)));
+        pixels.push_back(k < 40 ? Vector2f(walker.x + 5, 110) + step : Vector2f(10, 20) + step);
+      }
+      Matches matches;
+      matches.begin(pixels);
+      for (std::size_t i = 0; i < matches.size(); ++i) {
+        matches.state[i] = MatchState::matched;
+        matches.reference.pixel[i] = pixels[i] - (i < 40 ? Vector2f(6, 0) : Vector2f(0, 0));
+      }
+      Motion motion;
+      motion.status = Status::ok;
+      motion.reference_timestamp_s = before_s;
+      if (f > 0) prior.observe(test::observations_of(std::move(matches)), motion, camera);
+      before_s = now_s;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace stillpoint
