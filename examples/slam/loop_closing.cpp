@@ -173,7 +173,9 @@ void LoopClosing::close(const Recognised& recognised, Map& map) const {
   for (PointId id = 0; id < map.point_ids(); ++id)
     if (map.has_point(id)) {
       MapPoint& point = map.point(id);
-      point.p_world = new_world_from_old.at(point.observations.front().keyframe) * point.p_world;
+      const Pose& moved = new_world_from_old.at(point.observations.front().keyframe);
+      point.p_world = moved * point.p_world;
+      point.ray_sigma_m = moved.linear() * point.ray_sigma_m;
     }
   for (const PoseGraph::Node& node : graph.nodes)
     map.keyframe(node.keyframe).camera_from_world = node.camera_from_world;

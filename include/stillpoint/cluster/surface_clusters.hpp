@@ -165,12 +165,13 @@ class SurfaceClusters {
     PointArrays points(count, workspace);
     const span<double> whitened = workspace.take<double>(count);
     whiten(matches, member.first(count), whitened, workspace);
+    // Regions share no cluster.
+    const double apart = std::max(1000.0, 2.0 * *std::max_element(whitened.begin(), whitened.end()));
     for (std::size_t j = 0; j < count; ++j) {
       const std::size_t i = member[j];
-      constexpr double kApart = 1000.0;  // regions share no cluster
       const Vector2d lateral =
           Vector2d(matches.current.pixel[i].cast<double>()) / (kExtent_px * static_cast<double>(matches.pixel_scale));
-      points.set(j, {lateral.x(), lateral.y(), whitened[j] + kApart * (regions.of_feature[i].dynamic_region + 1)});
+      points.set(j, {lateral.x(), lateral.y(), whitened[j] + apart * (regions.of_feature[i].dynamic_region + 1)});
     }
     const std::size_t wanted = std::max(fewest_clusters, count / options.features_per_cluster);
     Random random(kSeed);

@@ -132,6 +132,18 @@ TEST_F(SurfaceClustersTest, DepthSeparatesInUnitsOfItsNoise) {
   EXPECT_FALSE(split_by_depth(0.4));
 }
 
+// Between 2 and 71 m lie a thousand units of a laser's noise: a person in a box and a wall far behind are two clusters.
+TEST_F(SurfaceClustersTest, RegionsShareNoClusterHoweverFarTheDepthReaches) {
+  clusters_.fewest_clusters = 4;
+  for (int i = 0; i < 200; ++i) add({100, 100}, i % 2 == 0 ? 2.0 : 40.0 + 0.4 * i, i % 2 == 0 ? 3.0f : 0.0f);
+  regions_.detections = {{{90, 90, 20, 20}, Mobility::dynamic, 1.0f, 1.5, 2.5}};
+  Workspace workspace;
+  regions_.locate(matches_.current.pixel, matches_.current.depth_m);
+  labels_.assign(matches_.size(), Label{});
+  clusters_.classify(test::observations_of(matches_, regions_), {scores_, {1.0}}, labels_, workspace);
+  for (std::size_t i = 1; i < 200; i += 2) EXPECT_NE(labels_[i].cluster, labels_[0].cluster) << i;
+}
+
 TEST_F(SurfaceClustersTest, ThereAreAtLeastTheFewestClusters) {
   clusters_.fewest_clusters = 4;
   for (int i = 0; i < 40; ++i) add({8.0f * static_cast<float>(i), 100}, 2.0, 0.0f);

@@ -210,6 +210,13 @@ TEST_F(StationaryCameraTest, AFrameFromBeforeTheStandIsNotAsked) {
       << "the older one is not of the stand, however near its pose";
 }
 
+// Since the camera turned, poses are chained: one that is the identity is rounded.
+TEST_F(StationaryCameraTest, AFrameOfTheStandMayHaveARoundedPose) {
+  add(100, 0.05, 2.0);
+  move(reproject_into_past(test::pose_of({1e-14, 0, -2e-15}, {3e-15, 0, 0})), 0, 100, 0.5f);
+  EXPECT_FALSE(camera_.since_older_frames(test::observations_of(matches_)));
+}
+
 // The person and the wall of above, half a second ago.
 TEST_F(StationaryCameraTest, AWallBehindAPersonIsEnoughInAnOlderFrameToo) {
   add(20, 0.0, 3.0);

@@ -40,7 +40,7 @@ struct StationaryCamera {
     const Matches& matches = observations.matches;
     const OlderFrame* oldest = nullptr;
     for (const OlderFrame& frame : matches.past_observations.frames())
-      if (frame.reference_from_current.matrix() == Pose::Identity().matrix()) oldest = &frame;
+      if (is_identity(frame.reference_from_current)) oldest = &frame;
     if (oldest == nullptr) return true;
     Census census;
     for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
@@ -57,6 +57,12 @@ struct StationaryCamera {
   static constexpr double kBeginsShare = 0.9;    // of the weight of all corners that is at rest when a camera stops
   static constexpr double kMajorityShare = 0.5;  // while it is stationary, so much is enough …
   static constexpr double kContinuesShare = 0.05;  // … or so much, if it lies behind the rest
+
+  /// Of chained poses, which are rounded.
+  static bool is_identity(const Pose& pose) {
+    constexpr double kRounding = 1e-9;
+    return translation_of(pose).norm() < kRounding && (rotation_of(pose) - Matrix3d::Identity()).norm() < kRounding;
+  }
 
   struct Group {
     double weight = 0;
