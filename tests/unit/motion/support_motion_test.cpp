@@ -439,7 +439,7 @@ TEST(SupportMotion, WhatIsFixedToTheCameraDoesNotHoldIt) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Random random(seed);
     Matches matches = test::make_matches(truth, scene, random);
-    fix_to_camera(60, random, matches);
+    fix_to_camera(90, random, matches);
     EXPECT_LT(test::translation_error(estimate(matches).current_from_reference, truth), 1e-3) << seed;
     EXPECT_GT(test::translation_error(estimate(matches, {}, without).current_from_reference, truth), 0.01) << seed;
   }

@@ -261,6 +261,26 @@ TEST(DefaultScenes, ATurningCameraDoesNoHarm) {
   EXPECT_LE(outcome.worst_position_m, 0.01);
 }
 
+// Before a camera in the hand, with a smooth start. A seventh of the filter's own corners lie on it, half of the
+// host's.
+TEST(DefaultScenes, ABoxThatBeginsToSlideNearTheCameraDoesNotTakeItAlong) {
+  synthetic::SceneOptions options;
+  options.frames = 75;
+  options.seed = 1;
+  synthetic::Scene scene = synthetic::detail::stage("begin", options);
+  scene.sensor = synthetic::realistic_kinect();
+  scene.sensor.depth_delay_s = 0;
+  scene.camera_path = synthetic::detail::wandering_camera(options);
+  const synthetic::Path path = synthetic::PathBuilder({-0.6, 0, 1.0}, 0.2).slide_to({0.6, 0, 1.0}, 0.5).path();
+  scene.movers.push_back(synthetic::printed_box(path, {0.25, 0.5, 0.25}, options.seed + 20));
+  FrameFilter<> filter(scene.camera);
+  const Outcome outcome = run(scene, filter);
+  expect_all_judged(outcome);
+  EXPECT_GE(outcome.score.recall(), 0.9);
+  EXPECT_LE(outcome.score.false_positive_rate(), 0.03);
+  EXPECT_LE(outcome.worst_position_m, 0.1);
+}
+
 /// A camera that looks around at 50 degrees a second, from 0.9 rad to one side to 0.9 to the other.
 synthetic::Scene looking_around(const AnyDistortion& lens) {
   synthetic::Scene scene = synthetic::pure_rotation(small(66));

@@ -73,27 +73,26 @@ class SupportMotion {
     auto problem =
         problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), observations, camera, workspace);
     const Pose expected = prior.current_from_reference ? inverted(*prior.current_from_reference) : Pose::Identity();
-    Hypothesis past = refine(expected, problem, kFarCutoffs);
-    const SupportNoise noise = calibrate(past.reference_from_current, problem, workspace);
-    motion.pixel_sigma = noise.pixel_sigma;
+    Hypothesis past = problem.refined(expected, kFarCutoffs);
+    const SupportNoise noise = problem.calibrate(past.reference_from_current, least_noise(), most_noise(), workspace);
     motion.depth_noise = noise.depth_scale;
     const bool is_confirmed = prior.is_told && confirm(expected, problem, past);
-    if (!is_confirmed) past = refine(past.reference_from_current, problem, kAgainCutoffs);
-    const Hypothesis sampled = best_sample(matches, past, problem, workspace);
-    const bool differ =
-        sampled.support > past.support &&
-        problem.distance_px(sampled.reference_from_current, past.reference_from_current) > kSameMotion_px;
-    const bool knows_past = prior.current_from_reference.has_value();  // else `past` began at the identity
+    if (!is_confirmed) past = problem.refined(past.reference_from_current, kAgainCutoffs);
+    const span<const double> cutoffs = is_confirmed ? span<const double>(kNearCutoffs) : kAgainCutoffs;
+    const Rivals rivals = rivals_of(past, noise.pixel_sigma, cutoffs, matches, problem, workspace);
+    const Pose &by_past = rivals.past.reference_from_current, &by_sample = rivals.sampled.reference_from_current;
+    const bool explains_more = rivals.sampled.support > rivals.past.support;
     // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
     const bool is_inverted =
-        differ && knows_past &&
-        problem.exclusive_support(past.reference_from_current, sampled.reference_from_current) >
-            (is_confirmed ? kToldPreference : past_preference) *
-                problem.exclusive_support(sampled.reference_from_current, past.reference_from_current);
-    const Hypothesis& selected = sampled.support > past.support && !is_inverted ? sampled : past;
+        explains_more && prior.current_from_reference && problem.distance_px(by_sample, by_past) > kSameMotion_px &&
+        problem.exclusive_support(by_past, by_sample) >
+            (is_confirmed ? kToldPreference : past_preference) * problem.exclusive_support(by_sample, by_past);
+    const bool is_sampled = explains_more && !is_inverted;
+    motion.pixel_sigma = is_sampled ? rivals.pixel_sigma : noise.pixel_sigma;
+    problem.set_pixel_sigma(motion.pixel_sigma);
+    const Hypothesis& selected = is_sampled ? rivals.sampled : past;
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
                         has_no_slow_motion(points, matches, camera, workspace);
-    const span<const double> cutoffs = is_confirmed ? span<const double>(kNearCutoffs) : kAgainCutoffs;
     const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, cutoffs, problem);
 
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
@@ -124,7 +123,7 @@ class SupportMotion {
     if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
     fixed_to_camera.release(points, observations.matches.size(), camera, workspace);
     auto problem = problem_of(points, frames, observations, camera, workspace);
-    calibrate(frames[0].reference_from_current, problem, workspace);
+    problem.calibrate(frames[0].reference_from_current, least_noise(), most_noise(), workspace);
     Hypothesis weighted;
     weighted.reference_from_current = frames[0].reference_from_current;
     weighted.information = problem.refine(weighted.reference_from_current, kNearCutoffs);
@@ -152,6 +151,7 @@ class SupportMotion {
   static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
   static constexpr double kMostPriorLoss = 12.6;    // 95 % quantile of χ²₆: what all points at full weight may cost
   static constexpr double kSlowMotionGain = 60.0;   // squared sigmas by which a motion must beat the identity
+  static constexpr double kFinerNoise = 0.7;        // of the past's: with less, both hypotheses are compared
   static constexpr double kLeastPixelSigma = 0.1;   // of the measured noise; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
   static constexpr std::size_t kFewestMatches = 6;  // twice a minimal sample
@@ -160,16 +160,11 @@ class SupportMotion {
   static constexpr std::array<double, 2> kAgainCutoffs{12.0, 4.0};     // from one that was refined already
   static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
 
-  struct Hypothesis {
-    Pose reference_from_current = Pose::Identity();
-    Matrix6d information = Matrix6d::Zero();
-    double support = 0;
-  };
-
+  using Hypothesis = MotionHypothesis;
   /// Is there a consensus at a motion that the host tells?   It is `found` then.
   template <class Camera>
   static bool confirm(const Pose& told, const SupportProblem<Camera>& problem, Hypothesis& found) {
-    const Hypothesis near = refine(told, problem, kNearCutoffs);
+    const Hypothesis near = problem.refined(told, kNearCutoffs);
     const bool is_here = problem.distance_px(near.reference_from_current, told) < kSameAsTold_px;
     if (is_here) found = near;
     return is_here;
@@ -200,15 +195,15 @@ class SupportMotion {
       if (stationary_camera.at_rest(matches, point.feature)) resting[count++] = point;
     Pose poses[2] = {Pose::Identity(), Pose::Identity()};
     SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
-    calibrate(Pose::Identity(), problem, workspace);
-    const Hypothesis moved = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    problem.calibrate(Pose::Identity(), least_noise(), most_noise(), workspace);
+    const Hypothesis moved = problem.refined(Pose::Identity(), span<const double>(kNearCutoffs).first(1));
     return problem.squared_residuals_of(moved.support - problem.support(Pose::Identity())) < kSlowMotionGain;
   }
 
   /// No motion, as well known as the support allows.
   template <class Camera>
   Hypothesis at_rest(const SupportProblem<Camera>& problem) const {
-    Hypothesis hypothesis = refine(Pose::Identity(), problem, span<const double>(kNearCutoffs).first(1));
+    Hypothesis hypothesis = problem.refined(Pose::Identity(), span<const double>(kNearCutoffs).first(1));
     hypothesis.reference_from_current = Pose::Identity();
     return hypothesis;
   }
@@ -228,49 +223,61 @@ class SupportMotion {
     return problem.squared_residuals_of(weighted.support - all.support) < kMostPriorLoss ? all : weighted;
   }
 
+  SupportNoise least_noise() const noexcept {
+    return {measures_noise ? kLeastPixelSigma : constraints.pixel_sigma, 1.0};
+  }
+  SupportNoise most_noise() const noexcept { return {constraints.pixel_sigma, measures_noise ? kMostDepthNoise : 1.0}; }
+
+  /// The two hypotheses as they are compared.
+  struct Rivals {
+    Hypothesis past, sampled;
+    double pixel_sigma;
+  };
+
+  /// A past that is a blend of two motions looks noisy, and explains with that noise what the right one does without:
+  /// where the best sample has clearly less, both are refined and compared with it. Else a sample is a rival only if
+  /// it explains more points than the past even before it is refined.
   template <class Camera>
-  static Hypothesis refine(const Pose& reference_from_current, const SupportProblem<Camera>& problem,
-                           span<const double> cutoffs) {
-    Hypothesis hypothesis;
-    hypothesis.reference_from_current = reference_from_current;
-    hypothesis.information = problem.refine(hypothesis.reference_from_current, cutoffs);
-    hypothesis.support = problem.support(hypothesis.reference_from_current);
-    return hypothesis;
+  Rivals rivals_of(const Hypothesis& past, double pixel_sigma, span<const double> cutoffs, const Matches& matches,
+                   SupportProblem<Camera>& problem, Workspace& workspace) const {
+    const double to_beat = problem.point_support(past.reference_from_current);
+    const bool may_be_finer = kFinerNoise * pixel_sigma > kLeastPixelSigma;
+    const Hypothesis sample = best_sample(to_beat, may_be_finer ? 0.0 : to_beat, matches, problem, workspace);
+    if (!(sample.support > 0)) return {past, {}, pixel_sigma};
+    const Hypothesis sampled = problem.refined(sample.reference_from_current, kFarCutoffs);
+    const double sampled_px =
+        problem.noise_at(sampled.reference_from_current, least_noise(), most_noise(), workspace).pixel_sigma;
+    if (!may_be_finer || !(sampled_px < kFinerNoise * pixel_sigma))
+      return {past, sample.support > to_beat ? sampled : Hypothesis{}, pixel_sigma};
+    problem.set_pixel_sigma(sampled_px);
+    return {problem.refined(past.reference_from_current, cutoffs),
+            problem.refined(sampled.reference_from_current, kNearCutoffs), sampled_px};
   }
 
+  /// The best motion of three points, not refined; no support where none explains more points than `to_beat`.
   template <class Camera>
-  SupportNoise calibrate(const Pose& reference_from_current, SupportProblem<Camera>& problem,
-                         Workspace& workspace) const {
-    const double most_px = constraints.pixel_sigma, least_px = measures_noise ? kLeastPixelSigma : most_px;
-    return problem.calibrate(reference_from_current, {least_px, 1.0}, {most_px, measures_noise ? kMostDepthNoise : 1.0},
-                             workspace);
-  }
-
-  /// The best motion of three points, refined; no support where none explains more points than `past`.
-  template <class Camera>
-  Hypothesis best_sample(const Matches& matches, const Hypothesis& past, const SupportProblem<Camera>& problem,
-                         Workspace& workspace) const {
+  Hypothesis best_sample(double past_support, double to_beat, const Matches& matches,
+                         const SupportProblem<Camera>& problem, Workspace& workspace) const {
     const Workspace::Scope scope(workspace);
     const span<const PointConstraint> points = problem.points();
     const span<std::size_t> metric = workspace.take<std::size_t>(points.size());
     std::size_t count = 0;
     for (std::size_t k = 0; k < points.size(); ++k)
       if (matches.metric(points[k].feature)) metric[count++] = k;
-    if (count < 3) return {};
-    double to_beat = problem.point_support(past.reference_from_current);
+    Hypothesis best;
+    if (count < 3) return best;
     // What explains more than the past does has at least its share of inliers.
-    const std::size_t trials = required_trials(to_beat / problem.total_weight(), 3, kConfidence, options.max_trials);
+    const double share = past_support / problem.total_weight();
     Random random(options.seed);
-    std::optional<Pose> best;
-    for (std::size_t trial = 0; trial < trials; ++trial) {
+    for (std::size_t left = required_trials(share, 3, kConfidence, options.max_trials); left > 0; --left) {
       const std::optional<Pose> pose = motion_of_sample(matches, points, metric.first(count), random);
       if (!pose) continue;
       const double found = problem.point_support(*pose, to_beat);
       if (!(found > to_beat)) continue;
       to_beat = found;
-      best = pose;
+      best = {*pose, Matrix6d::Zero(), found};
     }
-    return best ? refine(*best, problem, kFarCutoffs) : Hypothesis{};
+    return best;
   }
 
   static void set_covariance(const Matrix6d& information, Motion& motion) {

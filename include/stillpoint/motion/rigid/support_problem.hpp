@@ -23,6 +23,13 @@ struct SupportNoise {
   double depth_scale = 1;  ///< times what was assumed
 };
 
+/// A motion, and what speaks for it.
+struct MotionHypothesis {
+  Pose reference_from_current = Pose::Identity();
+  Matrix6d information = Matrix6d::Zero();
+  double support = 0;
+};
+
 /// Everything that is known of one motion: points and planes in one or more older frames, whose poses to each other
 /// are known, so that the pose to the first of them gives all. Views of a workspace.
 template <class Camera>
@@ -51,11 +58,28 @@ class SupportProblem {
     for (PlaneConstraint& plane : planes_) std::swap(plane.weight, plane.weight_without_prior);
   }
 
-  /// Measures the noise of the likely static points, from the medians of their residuals, and sets it for all. Of those
-  /// that have a depth: without one the residual has other degrees of freedom.
+  /// Measures the noise at a pose, and sets it for all.
+  SupportNoise calibrate(const Pose& pose, const SupportNoise& least, const SupportNoise& most, Workspace& workspace) {
+    const SupportNoise noise = noise_at(pose, least, most, workspace);
+    set_pixel_sigma(noise.pixel_sigma);
+    for (PointConstraint& point : points_) {
+      point.inverse_depth_sigma *= noise.depth_scale;
+      point.depth_slope /= noise.depth_scale;
+    }
+    for (PlaneConstraint& plane : planes_) plane.slope /= noise.depth_scale;
+    return noise;
+  }
+
+  void set_pixel_sigma(double sigma) noexcept {
+    for (PointConstraint& point : points_) point.pixel_sigma = sigma;
+  }
+
+  /// The noise of the likely static points, from the medians of their residuals. Of those that have a depth: without
+  /// one the residual has other degrees of freedom.
   /// @param least, most  what is measured is held within these
   /// @return             most pixel noise and least depth noise where no point is likely static
-  SupportNoise calibrate(const Pose& pose, const SupportNoise& least, const SupportNoise& most, Workspace& workspace) {
+  SupportNoise noise_at(const Pose& pose, const SupportNoise& least, const SupportNoise& most,
+                        Workspace& workspace) const {
     constexpr double kLikelyStatic = 0.5;  // weight
     const Workspace::Scope scope(workspace);
     const span<double> squared_px = workspace.take<double>(points_.size());
@@ -77,12 +101,6 @@ class SupportProblem {
     }
     noise.pixel_sigma = std::min(most.pixel_sigma, std::max(least.pixel_sigma, noise.pixel_sigma));
     noise.depth_scale = std::min(most.depth_scale, std::max(least.depth_scale, noise.depth_scale));
-    for (PointConstraint& point : points_) {
-      point.pixel_sigma = noise.pixel_sigma;
-      point.inverse_depth_sigma *= noise.depth_scale;
-      point.depth_slope /= noise.depth_scale;
-    }
-    for (PlaneConstraint& plane : planes_) plane.slope /= noise.depth_scale;
     return noise;
   }
 
@@ -147,6 +165,15 @@ class SupportProblem {
     const Matrix6d information = refine_reprojection(points_, planes_, poses_, cutoffs, camera_);
     pose = poses_[0];
     return information;
+  }
+
+  /// The best explanation near a pose.
+  MotionHypothesis refined(const Pose& pose, span<const double> cutoffs) const {
+    MotionHypothesis hypothesis;
+    hypothesis.reference_from_current = pose;
+    hypothesis.information = refine(hypothesis.reference_from_current, cutoffs);
+    hypothesis.support = support(hypothesis.reference_from_current);
+    return hypothesis;
   }
 
   int inliers(const Pose& pose) const {
