@@ -68,8 +68,9 @@ class PinholeCamera {
   Vector2d distort(const Vector2d& pixel) const {
     if (has_no_lens(distortion_)) return pixel;
     const Vector2d ideal = to_plane(pixel);
+    if (!(ideal.squaredNorm() > fold_radius_ * fold_radius_)) return to_pixel(distortion_.distort(ideal));
     const double beyond = ideal.norm() / fold_radius_;
-    return to_pixel(beyond > 1.0 ? Vector2d(beyond * distortion_.distort(ideal / beyond)) : distortion_.distort(ideal));
+    return to_pixel(beyond * distortion_.distort(ideal / beyond));
   }
 
   /// Pixel in the image to the undistorted pixel.

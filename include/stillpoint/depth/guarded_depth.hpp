@@ -17,7 +17,7 @@
 namespace stillpoint {
 
 /// Depth at the rounded pixel, if its 3 × 3 neighbourhood is one surface: at a hole or a jump there is none, and
-/// nothing is interpolated across an edge. In images wider than 960 pixels the neighbourhood is wider by as much: how
+/// nothing is interpolated across an edge. In images of 960 pixels and more the neighbourhood is wider by as much: how
 /// far a depth edge lies beside that of the image is an angle.
 struct GuardedDepth {
   // No option in files.

@@ -93,9 +93,11 @@ class CoarseAlignment {
     for (auto* images : {&reference_, &current_})
       for (BlurredImage& image : *images) image.clear();
     reference_weights.clear();
+    typical_depth_m_ = kRoom_m;
   }
 
  private:
+  static constexpr double kRoom_m = 2.0;       // where no depth is known
   static constexpr int kWidest_px = 120;       // of the finer image: 80 x 60 of 640 x 480
   static constexpr float kBlur_px = 2.5f;      // standard deviation in the coarser one, as Klein and Murray's
   static constexpr int kContrastReach_px = 8;  // of the finer image
@@ -240,7 +242,7 @@ class CoarseAlignment {
   std::array<BlurredImage, 2> reference_, current_;  // coarse, fine
   std::vector<Point> points_;
   std::vector<double> depths_m_;
-  double typical_depth_m_ = 2.0;  // of a room
+  double typical_depth_m_ = kRoom_m;  // the last that was known
 };
 
 }  // namespace stillpoint

@@ -29,8 +29,7 @@ namespace stillpoint {
 /// of the features on each object, and on from there until it is seen again or expires. Two ways to hand answers over:
 /// - `prior.detections = {...}` before `filter_frame`: seen in the coming frame. The prior takes them (the vector is
 ///   empty afterwards); a frame for which nothing was written has no answer.
-/// - `prior.detected(timestamp_s, detections)`: seen in the frame of that time, the coming one or one that is long
-/// past.
+/// - `prior.detected(timestamp_s, detections)`: seen in the frame of that time, the coming one or one long past.
 ///   Here an empty list is an answer too: the detector looked and saw nothing.
 class PropagatedPrior : public ForegroundPrior {
  public:
