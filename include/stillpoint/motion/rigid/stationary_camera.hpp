@@ -60,8 +60,8 @@ struct StationaryCamera {
 
   /// Of chained poses, which are rounded.
   static bool is_identity(const Pose& pose) {
-    constexpr double kRounding = 1e-9;
-    return translation_of(pose).norm() < kRounding && (rotation_of(pose) - Matrix3d::Identity()).norm() < kRounding;
+    constexpr double kSame = 1e-9;
+    return translation_of(pose).norm() < kSame && (rotation_of(pose) - Matrix3d::Identity()).norm() < kSame;
   }
 
   struct Group {
