@@ -161,6 +161,7 @@ class SupportMotion {
   static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
 
   using Hypothesis = MotionHypothesis;
+
   /// Is there a consensus at a motion that the host tells?   It is `found` then.
   template <class Camera>
   static bool confirm(const Pose& told, const SupportProblem<Camera>& problem, Hypothesis& found) {
@@ -223,9 +224,7 @@ class SupportMotion {
     return problem.squared_residuals_of(weighted.support - all.support) < kMostPriorLoss ? all : weighted;
   }
 
-  SupportNoise least_noise() const noexcept {
-    return {measures_noise ? kLeastPixelSigma : constraints.pixel_sigma, 1.0};
-  }
+  SupportNoise least_noise() const noexcept { return {measures_noise ? kLeastPixelSigma : constraints.pixel_sigma, 1}; }
   SupportNoise most_noise() const noexcept { return {constraints.pixel_sigma, measures_noise ? kMostDepthNoise : 1.0}; }
 
   /// The two hypotheses as they are compared.
@@ -245,13 +244,14 @@ class SupportMotion {
     const Hypothesis sample = best_sample(to_beat, may_be_finer ? 0.0 : to_beat, matches, problem, workspace);
     if (!(sample.support > 0)) return {past, {}, pixel_sigma};
     const Hypothesis sampled = problem.refined(sample.reference_from_current, kFarCutoffs);
+    const Pose& by_sample = sampled.reference_from_current;
     const double sampled_px =
-        problem.noise_at(sampled.reference_from_current, least_noise(), most_noise(), workspace).pixel_sigma;
-    if (!may_be_finer || !(sampled_px < kFinerNoise * pixel_sigma))
+        may_be_finer ? problem.noise_at(by_sample, least_noise(), most_noise(), workspace).pixel_sigma : pixel_sigma;
+    if (!(sampled_px < kFinerNoise * pixel_sigma))
       return {past, sample.support > to_beat ? sampled : Hypothesis{}, pixel_sigma};
     problem.set_pixel_sigma(sampled_px);
-    return {problem.refined(past.reference_from_current, cutoffs),
-            problem.refined(sampled.reference_from_current, kNearCutoffs), sampled_px};
+    return {problem.refined(past.reference_from_current, cutoffs), problem.refined(by_sample, kNearCutoffs),
+            sampled_px};
   }
 
   /// The best motion of three points, not refined; no support where none explains more points than `to_beat`.
