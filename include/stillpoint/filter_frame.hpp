@@ -136,7 +136,8 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     return check.error();
   }
 
-  /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
+  /// Forgets all frames: where the images jump to another place, as when a recording begins again. Not for a
+  /// relocalisation or a new map of the host: the images go on. Settings stay.
   void reset() {
     history_.clear();
     depth_delay.reset();

@@ -271,7 +271,8 @@ void bind_filter(py::module_& module) {
           py::arg("timestamp_s"), py::arg("detections"))
       .def(
           "reset", [](Filter& self) { self.without_gil([](stillpoint::FrameFilter<>& filter) { filter.reset(); }); },
-          "Forgets every frame: after a relocalisation, a jump, the loop of a recording. Options stay.")
+          "Forgets all frames: where the images jump to another place, as when a recording begins again. Not for a\n"
+          "relocalisation or a new map of the host: the images go on. Options stay.")
       .def_property_readonly("options", &options_of, "The options of all stages, as attributes.")
       .def(
           "read_options",

@@ -293,7 +293,8 @@ class FrameFilter:
         """A detector's answer for the frame of that time, the coming one or one that is past. An empty list says that it
         saw nothing."""
     def reset(self) -> None:
-        """Forgets every frame: after a relocalisation, a jump, the loop of a recording. Options stay."""
+        """Forgets all frames: where the images jump to another place, as when a recording begins again. Not for a
+        relocalisation or a new map of the host: the images go on. Options stay."""
     @property
     def options(self) -> Options:
         """The options of all stages, as attributes."""

@@ -118,6 +118,18 @@ double lens_stretch(const AnyCamera& camera, const Vector2d& pixel) {
   return least_sq < 1.0 ? 1.0 / std::sqrt(std::max(least_sq, 1.0 / (kMost * kMost))) : 1.0;
 }
 
+/// The image's pixel where a point is seen. The point is in the camera's frame, with z > 0.
+template <class AnyCamera>
+Vector2f seen_at(const AnyCamera& camera, const Vector3d& point) {
+  return camera.distort(camera.project(point)).template cast<float>();
+}
+
+/// The point in the camera's frame that a pixel of the image shows at a depth (z, metres).
+template <class AnyCamera>
+Vector3d shown_at(const AnyCamera& camera, const Vector2f& pixel, double depth_m) {
+  return camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m);
+}
+
 /// The camera of the policy sets we ship: its lens model is chosen at run time.
 using Camera = PinholeCamera<AnyDistortion>;
 

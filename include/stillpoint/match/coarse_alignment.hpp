@@ -131,18 +131,13 @@ class CoarseAlignment {
         if (!(depth_m > 0.0) || !std::isfinite(depth_m)) depth_m = 0.0;
         if (depth_m > 0) depths_m_.push_back(depth_m);
         points_.push_back(
-            {camera.back_project(camera.undistort(pixel.template cast<double>()), 1.0) * (depth_m > 0 ? depth_m : -1.0),
+            {shown_at(camera, pixel, 1.0) * (depth_m > 0 ? depth_m : -1.0),
              image.at(u, v), depth_m > 0 ? 1.0f : kGuessWeight});
       }
     if (depths_m_.empty()) return points_.clear();
     typical_depth_m_ = median_in_place(span<double>(depths_m_));
     for (Point& point : points_)
       if (point.point.z() < 0) point.point *= -typical_depth_m_;
-  }
-
-  template <class Camera>
-  static Vector2f pixel_of(const Vector3d& point, const Camera& camera) {
-    return camera.distort(camera.project(point)).template cast<float>();
   }
 
   /// How far a point of the image's middle moves, or turns, pixels.
@@ -170,7 +165,7 @@ class CoarseAlignment {
       const Vector3d there = pose * point.point;
       float value = 0;
       Vector2f pixel, slope;
-      const bool is_seen = there.z() > kNearest_m && image.sample(pixel = pixel_of(there, camera), value, slope);
+      const bool is_seen = there.z() > kNearest_m && image.sample(pixel = seen_at(camera, there), value, slope);
       if (!is_seen) {
         costs += point.weight * kUnseen;
         weights += point.weight;

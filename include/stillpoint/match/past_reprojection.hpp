@@ -212,7 +212,7 @@ class PastReprojection {
     const bool textured = cut_patch(current.gray, centre,
                                     PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
                           patch.count >= kFewestPixels;
-    const Vector3d point = camera.back_project(camera.undistort(centre.template cast<double>()), depth_m);
+    const Vector3d point = shown_at(camera, centre, depth_m);
     float dissimilarity = 0;
     const auto look_at = [&](OlderFrame& older) {
       Observation& observation = older.of_feature[i];

@@ -45,7 +45,7 @@ struct PlaceTest {
     StaticPlace place;
     place.point = past_from_current * point;
     if (!(place.point.z() > SurfaceSearch::kNearest_m)) return place;
-    place.pixel = camera.distort(camera.project(place.point)).template cast<float>();
+    place.pixel = seen_at(camera, place.point);
     if (!(past.gray.border_distance_px(place.pixel.x(), place.pixel.y()) >= 1.0f)) return place;
     place.in_view = true;
     const double sigma_m = noise.sigma(place.point.z());

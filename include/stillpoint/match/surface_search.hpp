@@ -30,7 +30,7 @@ struct SurfaceSearch {
                std::vector<SurfaceCell>& surfaces) const {
     const auto point_at = [&](int u, int v) {
       const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
-      return camera.back_project(camera.undistort(pixel.template cast<double>()), guard.at(current, pixel, noise));
+      return shown_at(camera, pixel, guard.at(current, pixel, noise));
     };
     surfaces.clear();
     const int step = scaled_step_px(camera);
@@ -65,12 +65,12 @@ struct SurfaceSearch {
                           const Camera& camera, const Noise& noise) const {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
-    const Vector2f place = camera.distort(camera.project(there)).template cast<float>();
+    const Vector2f place = seen_at(camera, there);
     if (!(older.gray.border_distance_px(place.x(), place.y()) >= -0.5f)) return {};  // else it may not fit an int
     const Vector2f pixel = rounded(place);
     const double depth_m = guard.at(older, pixel, noise);
     if (!(depth_m > 0)) return {};
-    return {camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m), noise.sigma(depth_m)};
+    return {shown_at(camera, pixel, depth_m), noise.sigma(depth_m)};
   }
 
   static constexpr double kNearest_m = 0.1;

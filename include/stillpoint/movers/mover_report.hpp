@@ -121,7 +121,7 @@ class MoverReport {
     const span<Vector2f> pixels = workspace.take<Vector2f>(object.points.size(), Vector2f::Zero());
     std::size_t count = 0;
     for (const Vector3d& point : object.points)
-      if (point.z() > kNearest_m) pixels[count++] = camera.distort(camera.project(point)).template cast<float>();
+      if (point.z() > kNearest_m) pixels[count++] = seen_at(camera, point);
     return box_of(pixels.first(count));
   }
 };

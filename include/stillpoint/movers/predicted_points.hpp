@@ -92,8 +92,7 @@ class PredictedPoints {
     for (std::size_t o = 0; o < objects.size(); ++o) {
       for (const Vector3d& point : objects[o].points) {
         const bool in_front = point.z() > kNearest_m;
-        pixel_[k] = in_front ? Vector2f(camera.distort(camera.project(point)).template cast<float>())
-                             : Vector2f::Constant(kNowhere_px);
+        pixel_[k] = in_front ? seen_at(camera, point) : Vector2f(kNowhere_px, kNowhere_px);
         point_[k++] = {static_cast<float>(point.z()), static_cast<std::int32_t>(o)};
       }
     }

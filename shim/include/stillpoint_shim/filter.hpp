@@ -101,7 +101,8 @@ class Filter {
     return detail::expect_motion(*engine_, current_from_reference);
   }
 
-  /// Forgets every frame: after a relocalisation, a jump, the loop of a recording. Settings stay.
+  /// Forgets all frames: where the images jump to another place, as when a recording begins again. Not for a
+  /// relocalisation or a new map of the host: the images go on. Settings stay.
   void reset() {
     detail::reset(*engine_);
     result_ = Result();

@@ -40,7 +40,7 @@ struct Camera {
 enum class DepthNoise : int {
   kinect,          ///< structured light, 1.2 mm + 1.9 mm (z / m - 0.4)²
   stereo,          ///< depth from disparity: needs `stereo_baseline_m`
-  time_of_flight,  ///< 5 mm + 2 mm a metre
+  time_of_flight,  ///< 5 mm + 2 mm per metre
 };
 
 /// Settings of a filter; the defaults are those of the library.
