@@ -116,9 +116,11 @@ class OptionCheck {
   /// As in "gate.false_positive_rate is 5, expected a number from 0.000001 to 0.5"; empty where all are in range.
   const std::string& error() const noexcept { return error_; }
 
+  /// Apart from the callers: inlined for each of the options it would be a twentieth of the whole filter's code.
   template <class T>
-  void operator()(const char* name, const T& value, const OptionRange& range) {
-    if (error_.empty() && !range.contains(static_cast<double>(value))) report_number<T>(name, value, range);
+  [[gnu::noinline]] void operator()(const char* name, T value, const OptionRange& range) {
+    if (error_.empty() && !range.contains(static_cast<double>(value)))
+      report(name, option_text(value), expected_of<T>(range));
   }
   template <class T>
   void operator()(const char* name, T& value) {
@@ -126,11 +128,10 @@ class OptionCheck {
         std::is_same_v<T, bool> || !std::is_arithmetic_v<T>,
         "stillpoint: each_option must say the range of a number: visit(name, value, OptionRange{least, most})");
     if constexpr (has_options<T, OptionCheck>::value) {
-      OptionCheck nested;
-      nested.outer_ = this;
-      nested.group_ = name;
-      each_option(value, nested);
-      if (error_.empty()) error_ = std::move(nested.error_);
+      const Group group{name, innermost_};
+      innermost_ = &group;
+      each_option(value, *this);
+      innermost_ = group.outer;
     }
   }
   template <class T>
@@ -142,23 +143,21 @@ class OptionCheck {
   }
 
  private:
-  /// The option with its groups, as in `matcher.corners.cell_px`.
-  std::string path(const char* name) const {
-    return outer_ == nullptr ? std::string(name) : outer_->path(group_) + '.' + name;
-  }
+  struct Group {
+    const char* name;
+    const Group* outer;
+  };
 
-  /// Apart from the check: inlined for each of the options it would be a twentieth of the whole filter's code.
-  template <class T>
-  [[gnu::noinline]] void report_number(const char* name, T value, const OptionRange& range) {
-    report(name, option_text(value), expected_of<T>(range));
+  /// With the names of the groups that it is in, as in `matcher.corners.`.
+  static std::string path(const Group* group) {
+    return group == nullptr ? std::string() : path(group->outer) + group->name + '.';
   }
 
   void report(const char* name, const std::string& found, const std::string& expected) {
-    error_ = path(name) + " is " + found + ", expected " + expected;
+    error_ = path(innermost_) + name + " is " + found + ", expected " + expected;
   }
 
-  const OptionCheck* outer_ = nullptr;
-  const char* group_ = "";
+  const Group* innermost_ = nullptr;
   std::string error_;
 };
 
