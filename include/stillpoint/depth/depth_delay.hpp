@@ -10,6 +10,7 @@
 #include <iterator>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -120,7 +121,7 @@ class DepthDelay {
     for_each_depth_jump(frame.depth, kRows, [&](int u, int v, float nearer_m) {
       const Vector2f pixel = to_depth.inverse({depth_jump_at(frame.depth, u, v), static_cast<float>(v)});
       if (is_dynamic(pixel, static_cast<double>(nearer_m), reach_px)) return;
-      const Vector3d before = shown_at(camera, pixel, static_cast<double>(nearer_m));
+      const Vector3d before = point_at_depth(camera, pixel, static_cast<double>(nearer_m));
       const Vector3d after = current_from_reference * before;
       if (!(after.z() > 0.1 * before.z())) return;
       // Both by the lens: beyond its range `undistort` has no inverse.

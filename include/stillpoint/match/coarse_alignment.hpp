@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/small_linear_algebra.hpp"
@@ -130,9 +131,8 @@ class CoarseAlignment {
         double depth_m = depth.image.contains(du, dv) ? static_cast<double>(depth.metres(du, dv)) : 0.0;
         if (!(depth_m > 0.0) || !std::isfinite(depth_m)) depth_m = 0.0;
         if (depth_m > 0) depths_m_.push_back(depth_m);
-        points_.push_back(
-            {shown_at(camera, pixel, 1.0) * (depth_m > 0 ? depth_m : -1.0),
-             image.at(u, v), depth_m > 0 ? 1.0f : kGuessWeight});
+        points_.push_back({point_at_depth(camera, pixel, 1.0) * (depth_m > 0 ? depth_m : -1.0), image.at(u, v),
+                           depth_m > 0 ? 1.0f : kGuessWeight});
       }
     if (depths_m_.empty()) return points_.clear();
     typical_depth_m_ = median_in_place(span<double>(depths_m_));
@@ -165,7 +165,7 @@ class CoarseAlignment {
       const Vector3d there = pose * point.point;
       float value = 0;
       Vector2f pixel, slope;
-      const bool is_seen = there.z() > kNearest_m && image.sample(pixel = seen_at(camera, there), value, slope);
+      const bool is_seen = there.z() > kNearest_m && image.sample(pixel = image_pixel(camera, there), value, slope);
       if (!is_seen) {
         costs += point.weight * kUnseen;
         weights += point.weight;

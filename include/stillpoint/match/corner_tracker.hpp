@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/frame.hpp"
@@ -55,11 +56,11 @@ class CornerTracker {
       const double measured_m =
           current.depth.image.contains(u, v) ? static_cast<double>(current.depth.metres(u, v)) : 0.0;
       const double depth_m = measured_m > 0 && std::isfinite(measured_m) ? measured_m : coarse_.typical_depth_m();
-      const Vector3d point = shown_at(camera, corners_[c], depth_m);
+      const Vector3d point = point_at_depth(camera, corners_[c], depth_m);
       const auto displacement = [&](const Pose& reference_from_current) {
         const Vector3d there = reference_from_current * point;
         if (!(there.z() > 0)) return Vector2f(Vector2f::Zero());
-        return Vector2f(seen_at(camera, there) - corners_[c]);
+        return Vector2f(image_pixel(camera, there) - corners_[c]);
       };
       start_[c] = {displacement(guess), displacement(reference_from_expected), kSameSurface.at(noise.sigma(depth_m))};
     }

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -86,7 +87,7 @@ template <class Camera>
 void predict_places(const Pose& reference_from_current, const Camera& camera, Matches& matches) {
   const auto project = [&](const Vector3d& point, Vector2f& pixel) {
     const Vector3d there = reference_from_current * point;
-    if (there.z() > SurfaceSearch::kNearest_m) pixel = seen_at(camera, there);
+    if (there.z() > SurfaceSearch::kNearest_m) pixel = image_pixel(camera, there);
   };
   for (std::size_t i = 0; i < matches.host_count; ++i)
     if (matches.current.has_depth(i)) project(matches.current.point[i], matches.predicted[i]);

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
@@ -212,7 +213,7 @@ class PastReprojection {
     const bool textured = cut_patch(current.gray, centre,
                                     PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
                           patch.count >= kFewestPixels;
-    const Vector3d point = shown_at(camera, centre, depth_m);
+    const Vector3d point = point_at_depth(camera, centre, depth_m);
     float dissimilarity = 0;
     const auto look_at = [&](OlderFrame& older) {
       Observation& observation = older.of_feature[i];

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
@@ -149,7 +150,7 @@ class SpaceSearch {
       visit(elapsed_s, [&](const Vector3d& point) {
         const Vector3d there = view_from_current * point;
         if (!(there.z() > kNearest_m)) return Space::unknown;
-        const Vector2f pixel = seen_at(camera, there);
+        const Vector2f pixel = image_pixel(camera, there);
         const auto nearest_m = static_cast<double>(view.nearest_around(pixel));
         if (!(nearest_m > 0)) return Space::unknown;
         const double behind_m = nearest_m - there.z(), certain_m = kMargin_m + kDrift_m_s * elapsed_s;

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -45,7 +46,7 @@ struct PlaceTest {
     StaticPlace place;
     place.point = past_from_current * point;
     if (!(place.point.z() > SurfaceSearch::kNearest_m)) return place;
-    place.pixel = seen_at(camera, place.point);
+    place.pixel = image_pixel(camera, place.point);
     if (!(past.gray.border_distance_px(place.pixel.x(), place.pixel.y()) >= 1.0f)) return place;
     place.in_view = true;
     const double sigma_m = noise.sigma(place.point.z());

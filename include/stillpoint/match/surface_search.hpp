@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
@@ -30,7 +31,7 @@ struct SurfaceSearch {
                std::vector<SurfaceCell>& surfaces) const {
     const auto point_at = [&](int u, int v) {
       const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
-      return shown_at(camera, pixel, guard.at(current, pixel, noise));
+      return point_at_depth(camera, pixel, guard.at(current, pixel, noise));
     };
     surfaces.clear();
     const int step = scaled_step_px(camera);
@@ -65,12 +66,12 @@ struct SurfaceSearch {
                           const Camera& camera, const Noise& noise) const {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
-    const Vector2f place = seen_at(camera, there);
+    const Vector2f place = image_pixel(camera, there);
     if (!(older.gray.border_distance_px(place.x(), place.y()) >= -0.5f)) return {};  // else it may not fit an int
     const Vector2f pixel = rounded(place);
     const double depth_m = guard.at(older, pixel, noise);
     if (!(depth_m > 0)) return {};
-    return {shown_at(camera, pixel, depth_m), noise.sigma(depth_m)};
+    return {point_at_depth(camera, pixel, depth_m), noise.sigma(depth_m)};
   }
 
   static constexpr double kNearest_m = 0.1;

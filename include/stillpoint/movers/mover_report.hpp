@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/mover.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
@@ -121,7 +122,7 @@ class MoverReport {
     const span<Vector2f> pixels = workspace.take<Vector2f>(object.points.size(), Vector2f::Zero());
     std::size_t count = 0;
     for (const Vector3d& point : object.points)
-      if (point.z() > kNearest_m) pixels[count++] = seen_at(camera, point);
+      if (point.z() > kNearest_m) pixels[count++] = image_pixel(camera, point);
     return box_of(pixels.first(count));
   }
 };

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
@@ -92,7 +93,7 @@ class PredictedPoints {
     for (std::size_t o = 0; o < objects.size(); ++o) {
       for (const Vector3d& point : objects[o].points) {
         const bool in_front = point.z() > kNearest_m;
-        pixel_[k] = in_front ? seen_at(camera, point) : Vector2f(kNowhere_px, kNowhere_px);
+        pixel_[k] = in_front ? image_pixel(camera, point) : Vector2f(kNowhere_px, kNowhere_px);
         point_[k++] = {static_cast<float>(point.z()), static_cast<std::int32_t>(o)};
       }
     }
