@@ -53,7 +53,7 @@ struct Row {
 /// Runs differ by the seed of the condition and of the filter's own random numbers.
 FrameFilter<WithMovers<>> make_filter(const LabelledSequence& sequence, const Arguments& arguments, std::size_t run) {
   FrameFilter<WithMovers<>> filter(sequence.camera);
-  filter.movers.is_on = arguments.with_movers;
+  filter.movers.is_enabled = arguments.with_movers;
   if (!arguments.options_file.empty()) read_options(arguments.options_file, filter);
   filter.ego_motion.options.seed += run;
   return filter;

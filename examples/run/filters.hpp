@@ -79,7 +79,7 @@ stillpoint::FrameFilter<Policies> default_filter(const Options& options, const F
   if constexpr (std::is_base_of_v<WithSwitchedMovers, Policies>) {
     filter.ego_motion.kind = motion_kind(options.ego_motion);
     filter.ego_motion.rigid.options.seed = filter.ego_motion.epipolar.options.seed = options.seed;
-    filter.movers.tracking.is_on = options.has_movers();
+    filter.movers.tracking.is_enabled = options.has_movers();
   }
   switch_off(options.without, filter);
   return filter;

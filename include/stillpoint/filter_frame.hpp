@@ -15,6 +15,7 @@
 #include "stillpoint/core/keypoint.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/no_depth_delay.hpp"
 #include "stillpoint/depth/no_hole_filling.hpp"
@@ -194,7 +195,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       motion = ego_motion.estimate(observations_, camera, expected, workspace_);
       motion.reference_timestamp_s = reference.timestamp_s;
     });
-    timings.run(Stage::match, [&] { confirm(matcher, camera, motion); });
+    timings.run(Stage::match, [&] { refuse_if_contradicted(matcher, camera, motion); });
     timings.run(Stage::prior, [&] { observe(prior, observations_, motion, camera); });
     if (!motion.usable()) {
       frame.depth = as_it_came.depth;

@@ -21,7 +21,9 @@ namespace py = pybind11;
 /// meanwhile.
 class Filter {
  public:
-  Filter(const stillpoint::Camera& camera, bool has_movers) : filter_(camera) { filter_.movers.is_on = has_movers; }
+  Filter(const stillpoint::Camera& camera, bool has_movers) : filter_(camera) {
+    filter_.movers.is_enabled = has_movers;
+  }
 
   /// Calls `use(filter)` without the interpreter's lock: nothing of Python may be touched in it.
   template <class Use>
@@ -36,7 +38,7 @@ class Filter {
   template <class Use>
   decltype(auto) with_options(Use&& use) {
     return without_gil([&](stillpoint::FrameFilter<stillpoint::WithMovers<>>& filter) -> decltype(auto) {
-      return filter.movers.is_on ? use(filter) : use(static_cast<stillpoint::FrameFilter<>&>(filter));
+      return filter.movers.is_enabled ? use(filter) : use(static_cast<stillpoint::FrameFilter<>&>(filter));
     });
   }
 

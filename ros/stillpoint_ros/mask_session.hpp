@@ -69,7 +69,7 @@ class MaskSession {
     const cv::Mat image = read("image", [&] { return image_of(frame.image); });
     const cv::Mat depth = read("depth", [&] { return depth_of(frame.depth); });
     const bool is_other_camera = use_camera(frame.camera);
-    filter.movers.is_on = options.follow_movers;
+    filter.movers.is_enabled = options.follow_movers;
     cv::Mat gray = image;
     if (image.channels() == 3) cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
     find_keypoints(gray);

@@ -165,7 +165,7 @@ std::string numbered(const char* name, int i) {
 void run_recorded(const fs::path& recorded, const fs::path& folder) {
   const stillpoint::TumSequence sequence(recorded);
   stillpoint::FrameFilter<stillpoint::WithMovers<>> filter(sequence.camera());
-  filter.movers.is_on = false;
+  filter.movers.is_enabled = false;
   const auto orb = cv::ORB::create(1000);
   for (int i = 0; i < kRecordedFrames; ++i) {
     const auto index = static_cast<std::size_t>(i);
@@ -184,7 +184,7 @@ void run_recorded(const fs::path& recorded, const fs::path& folder) {
 struct Side {
   Side(const stillpoint::Camera& camera, fs::path out, bool has_movers) : folder(std::move(out)), filter(camera) {
     fs::create_directories(folder);
-    filter.movers.is_on = has_movers;
+    filter.movers.is_enabled = has_movers;
     filter.movers.options.least_path_m = 0.003;  // of these few frames
     filter.movers.options.least_path_sigmas = 1;
   }

@@ -63,8 +63,7 @@ class PinholeCamera {
   }
 
   /// Undistorted pixel to the pixel in the image. Without a lens it is the same: no division by the focal lengths.
-  /// Where the lens's model folds back, a ray is as many times farther out than the last one before as it is on the
-  /// plane.
+  /// Beyond the radius at which the lens's model folds back, the distorted radius grows in proportion to the ideal one.
   Vector2d distort(const Vector2d& pixel) const {
     if (has_no_lens(distortion_)) return pixel;
     const Vector2d ideal = to_plane(pixel);

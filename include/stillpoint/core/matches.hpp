@@ -63,13 +63,6 @@ struct FrameFeatures {
   }
 };
 
-/// Focal length over 525 px, a Kinect's.
-template <class Camera>
-float pixel_scale(const Camera& camera) noexcept {
-  constexpr double kFocal_px = 525.0;
-  return static_cast<float>(camera.fx() / kFocal_px);
-}
-
 /// All features of a frame. The first `host_count` are the host's keypoints in their order; a matcher may append
 /// corners of its own behind them, which take part in every stage and in no result.
 struct Matches {
@@ -83,10 +76,10 @@ struct Matches {
   FrameFeatures current;
   FrameFeatures reference;  ///< valid where `state` is matched or near_edge
   std::vector<MatchState> state;
-  std::vector<Vector2f> predicted;        ///< where it was in the reference image if it stands still, roughly; pixels
-  std::vector<std::uint8_t> was_there;    ///< views of seconds ago that saw a surface in its place
-  std::vector<float> space_static_prior;  ///< 0 to 1: low where older views saw free space
-  PastObservations past_observations;     ///< in older frames, for a matcher that reprojects into past frames
+  std::vector<Vector2f> predicted;  ///< where it was in the reference image if it stands still, roughly; pixels
+  std::vector<std::uint8_t> occupied_views;  ///< how many views of seconds ago saw a surface in its place
+  std::vector<float> space_static_prior;     ///< 0 to 1: low where older views saw free space
+  PastObservations past_observations;        ///< in older frames, for a matcher that reprojects into past frames
 
   std::size_t size() const noexcept { return state.size(); }
 
@@ -108,7 +101,7 @@ struct Matches {
     reference.resize(0);
     state.clear();
     predicted.clear();
-    was_there.clear();
+    occupied_views.clear();
     space_static_prior.clear();
     past_observations.clear();
     resize(host_count);
@@ -120,7 +113,7 @@ struct Matches {
     reference.resize(count);
     extend(state, count, MatchState::lost);
     extend(predicted, count, Vector2f::Zero());
-    extend(was_there, count, 0);
+    extend(occupied_views, count, 0);
     extend(space_static_prior, count, 1.0f);
   }
 };

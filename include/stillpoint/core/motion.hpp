@@ -19,7 +19,7 @@ struct Motion {
   Warnings warnings;                               ///< rotation_only, consensus_inverted
   Pose current_from_reference = Pose::Identity();  ///< metres
   /// Of a small rotation (radians, first three) and translation (metres, last three) applied after the pose, in the
-  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v.
+  /// current camera's frame: p_current = Exp(ω) (R p_reference + t) + v. Units: rad², rad m, m².
   Matrix6d covariance = Matrix6d::Zero();
   /// What the covariance is over that of constraints that are wrong independently of each other; 1 where nobody says.
   /// Neighbouring corners share errors of depth, of blur, of a rolling shutter.

@@ -34,10 +34,12 @@ struct Observation {
   bool shows_nearer = false;  ///< a surface in its place is nearer by more than noise: it may have hidden the point
   /// 1 − correlation of the most alike patch near by: 0 alike to 2 inverted; NaN: no patch could be compared.
   float dissimilarity = std::numeric_limits<float>::quiet_NaN();
-  Vector2f found = Vector2f::Zero();  ///< undistorted pixel of that patch
-  float depth_m = 0;                  ///< measured where the point should be, metres, 0 none
-  float depth_sigma_m = 0;
-  float offset_px = 0;  ///< of that patch from where a static point should be, in the image as it is
+  /// Undistorted pixel of that patch. Of PastReprojection: what was cut out at the rounded keypoint, up to 0.7 px
+  /// beside.
+  Vector2f found = Vector2f::Zero();
+  float depth_m = 0;        ///< measured where the point should be, metres, 0 none
+  float depth_sigma_m = 0;  ///< of that depth, metres; 0 where there is none
+  float offset_px = 0;      ///< of that patch from where a static point should be, in the image as it is
 };
 
 /// A piece of smooth surface of the current frame, a cell of a coarse grid. It counts area where there are no corners.
@@ -48,7 +50,7 @@ struct SurfaceCell {
   double depth_sigma_m = 0;
   float space_static_prior = 1.0f;        ///< 0 to 1, as `Matches::space_static_prior`
   Space seen = Space::unknown;            ///< what the view that was asked last saw in its place
-  std::uint8_t was_there = 0;             ///< as `Matches::was_there`
+  std::uint8_t occupied_views = 0;        ///< as `Matches::occupied_views`
   Vector2f predicted = Vector2f::Zero();  ///< where it was in the reference image if it stands still, pixels
 };
 
@@ -75,7 +77,7 @@ class PastObservations {
   /// one on the surface beside it, NaN where there is none.
   std::vector<Vector3d> point;
   std::vector<double> inverse_depth_sigma;  ///< of 1 / point.z, per metre
-  std::vector<std::uint8_t> seen_through;   ///< how many views of the past seconds saw something farther in its place
+  std::vector<std::uint8_t> views_through;  ///< how many views of the past seconds saw something farther in its place
   /// The features inside the image, neighbours near to each other: looked for in this order, what one reads of an image
   /// is still at hand for the next.
   std::vector<std::uint32_t> order;
@@ -93,7 +95,7 @@ class PastObservations {
     surfaces.clear();
     point.clear();
     inverse_depth_sigma.clear();
-    seen_through.clear();
+    views_through.clear();
     order.clear();
     count_ = 0;
   }
@@ -104,7 +106,7 @@ class PastObservations {
     refill(frame.of_feature, feature_count, Observation{});
     extend(point, feature_count, Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
     extend(inverse_depth_sigma, feature_count, std::numeric_limits<double>::infinity());
-    extend(seen_through, feature_count, 0);
+    extend(views_through, feature_count, 0);
     frame.of_surface.clear();
     return frame;
   }

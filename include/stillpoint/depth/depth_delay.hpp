@@ -19,6 +19,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/depth/depth_jumps.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/moved_depth.hpp"
 
 namespace stillpoint {
@@ -54,7 +55,7 @@ class DepthDelay {
     find_dynamic(features, labels);
     find_jumps(frame, motion.current_from_reference, camera);
     if (jumps_.size() < kFewestJumps || !camera_moves(frame.gray.width)) return;
-    look(frame.gray);
+    add_fits(frame.gray);
     decide();
   }
 
@@ -138,7 +139,7 @@ class DepthDelay {
   }
 
   /// Adds the mean gray step at the moved jumps, over that of all delays and shifts.
-  void look(const ImageView& gray) {
+  void add_fits(const ImageView& gray) {
     const int step_px = std::max(gray.width / 320, 1);
     const std::size_t thinned = 1 + jumps_.size() / kMostJumps;
     Fits seen;

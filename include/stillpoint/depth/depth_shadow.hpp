@@ -12,6 +12,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 

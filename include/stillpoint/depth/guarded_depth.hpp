@@ -13,6 +13,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 

@@ -12,6 +12,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/tile_motion.hpp"
 
 namespace stillpoint {

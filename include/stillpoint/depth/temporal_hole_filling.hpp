@@ -19,6 +19,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/depth_shadow.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/depth/tile_motion.hpp"

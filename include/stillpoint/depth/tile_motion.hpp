@@ -10,6 +10,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 

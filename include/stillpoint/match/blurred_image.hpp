@@ -110,7 +110,7 @@ class BlurredImage {
     for (float& value : value_) value = static_cast<float>((static_cast<double>(value) - mean) * scale);
   }
 
-  /// Three box filters of radius 1 for each unit of variance 2, which is what three of them have.
+  /// Box filters of radius 1, each of variance 2/3, as many as give that of σ.
   void blur(float sigma_px) {
     const int rounds = std::max(1, static_cast<int>(std::lround(sigma_px * sigma_px / (2.0f / 3.0f))));
     buffer_.resize(value_.size());

@@ -20,6 +20,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/match/blurred_image.hpp"
 #include "stillpoint/match/pyramid.hpp"
 #include "stillpoint/match/static_weights.hpp"
@@ -126,10 +127,7 @@ class CoarseAlignment {
     for (int v = 1; v + 1 < image.height(); v += step)
       for (int u = 1; u + 1 < image.width(); u += step) {
         const Vector2f pixel = image.to_full(Vector2f(static_cast<float>(u), static_cast<float>(v)));
-        const Vector2f at = to_depth(pixel);
-        const int du = rounded(at.x()), dv = rounded(at.y());
-        double depth_m = depth.image.contains(du, dv) ? static_cast<double>(depth.metres(du, dv)) : 0.0;
-        if (!(depth_m > 0.0) || !std::isfinite(depth_m)) depth_m = 0.0;
+        const double depth_m = RoundedDepth{}.at(depth, to_depth(pixel));
         if (depth_m > 0) depths_m_.push_back(depth_m);
         points_.push_back({point_at_depth(camera, pixel, 1.0) * (depth_m > 0 ? depth_m : -1.0), image.at(u, v),
                            depth_m > 0 ? 1.0f : kGuessWeight});

@@ -17,8 +17,10 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/match/coarse_alignment.hpp"
 #include "stillpoint/match/grid_corners.hpp"
@@ -51,11 +53,8 @@ class CornerTracker {
     is_aligned_ = true;
     const DepthScale to_depth(current.gray, current.depth.image);
     for (std::size_t c = 0; c < corners_.size(); ++c) {
-      const Vector2f at = to_depth(corners_[c]);
-      const int u = rounded(at.x()), v = rounded(at.y());
-      const double measured_m =
-          current.depth.image.contains(u, v) ? static_cast<double>(current.depth.metres(u, v)) : 0.0;
-      const double depth_m = measured_m > 0 && std::isfinite(measured_m) ? measured_m : coarse_.typical_depth_m();
+      const double measured_m = RoundedDepth{}.at(current.depth, to_depth(corners_[c]));
+      const double depth_m = measured_m > 0 ? measured_m : coarse_.typical_depth_m();
       const Vector3d point = point_at_depth(camera, corners_[c], depth_m);
       const auto displacement = [&](const Pose& reference_from_current) {
         const Vector3d there = reference_from_current * point;
@@ -106,7 +105,6 @@ class CornerTracker {
   static constexpr float kWeakestCorner = 600.0f;
   static constexpr float kTooVague = 0.5f;  // on a coarse level a fit this bad does not move the start of the next
   static constexpr float kCoarsePrecision_px = 0.2f;  // of a level that only says where the next one begins
-  static constexpr int kFewestPixels = 25;            // of a patch's 64 that must lie on the corner's surface
   static constexpr float kBorder_px = 8.0f;           // nearer to the border than this a match is `near_edge`
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
@@ -188,7 +186,7 @@ class CornerTracker {
       fit = find_patch(patch, reference_[level], cut + displacement / scale, search);
       if (fit.inside && (level == 0 || fit.dissimilarity < kTooVague)) displacement += fit.offset * scale;
     }
-    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || patch.count < kFewestPixels) return {};
+    if (!fit.inside || !(fit.dissimilarity <= options.most_dissimilar) || !patch.is_comparable()) return {};
     const Vector2f found = pixel + displacement;
     return border_distance_px(reference_[0], found) >= 0.0f ? Found{found, fit.dissimilarity} : Found{};
   }

@@ -9,7 +9,7 @@
 
 #include "stillpoint/core/past_observations.hpp"
 #include "stillpoint/core/span.hpp"
-#include "stillpoint/match/older_frames.hpp"
+#include "stillpoint/match/observation_order.hpp"
 
 namespace stillpoint {
 
@@ -21,8 +21,8 @@ inline constexpr float kNoEvidence = 0.3f;
 /// nearer, says nothing of it: it becomes `occluded`. Where a frame between shows the feature in another place it has
 /// moved, and all that is older counts.
 ///
-/// A surface that is nearer by less than `PlaceTest::kOcclusion_m` hides nothing by its depth alone, since noise and
-/// slopes look like that, too: a book that stands against the box that was pushed along it looked changed.
+/// A surface that is nearer by less than 15 cm (`PlaceTest::margin_m`) hides nothing by its depth alone, since noise
+/// and slopes look like that, too: a book that stands against the box that was pushed along it looked changed.
 inline void forget_where_hidden(std::size_t i, span<OlderFrame> frames) noexcept {
   if (frames.empty() || !stands_in_place(frames[0].of_feature[i])) return;
   bool may_be_hidden = true;

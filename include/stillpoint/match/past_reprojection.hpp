@@ -17,13 +17,17 @@
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_shadow.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/borrowed_depth.hpp"
 #include "stillpoint/match/hidden_before.hpp"
+#include "stillpoint/match/observation_order.hpp"
+#include "stillpoint/match/older_frame_choice.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/patch_observation.hpp"
 #include "stillpoint/match/same_place.hpp"
 #include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/static_place.hpp"
@@ -64,8 +68,8 @@ class PastReprojection {
   void reproject_into_past(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
                            const Camera& camera, const Noise& noise, Observations& observations) const {
     Matches& matches = observations.matches;
-    look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
-                      matches.past_observations.frames());
+    observe_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
+                     matches.past_observations.frames());
     const DepthShadow shadow(current, camera);
     SamePlace same_place(kNeighbourhood_px);
     for (const std::size_t i : matches.past_observations.order) {
@@ -75,10 +79,10 @@ class PastReprojection {
         adopt(i, alike, camera, matches);
       } else if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
-        look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), std::numeric_limits<float>::infinity(),
-             history, current, camera, noise, matches);
+        reproject_at_depth(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m),
+                           std::numeric_limits<float>::infinity(), history, current, camera, noise, matches);
       } else if (i < matches.host_count && is_finite(matches.current.undistorted[i])) {
-        look_beside(i, shadow, history, current, camera, noise, matches);
+        reproject_without_depth(i, shadow, history, current, camera, noise, matches);
       }
     }
     space.count_views_through(history.space(), current.timestamp_s, filter_from_current, camera, noise, matches);
@@ -86,17 +90,11 @@ class PastReprojection {
 
  private:
   static constexpr float kNeighbourhood_px = 32.0f;  // features in one cell of this size are looked for in a row
-  static constexpr int kFewestPixels = 25;           // of a patch's 64 that must lie on the feature's surface
   static constexpr DepthTolerance kSameSurface{};
   static constexpr DepthTolerance kNearer{0.02, 4.0};  // of what may have hidden a static point
   static constexpr int kOccluderReach_px = 8;          // what is nearer within this reach covers a part of the patch
   static constexpr int kSurrounding_px = 24;      // how far a feature without a depth looks for the surfaces beside it
-  static constexpr double kSupposedSpread = 0.1;  // standard deviation of its inverse depth, of the supposed one
-  static constexpr double kBridgedSpread = 0.03;  // the same, where all that is beside it is one surface
   static constexpr double kBorrowedSigmas = 2.0;  // of a depth that an older frame measured, times the sensor's
-  static constexpr float kLeastContrast = 3.0f;   // of a patch without depth that can be compared, gray values
-  static constexpr int kSearchIterations = 3;     // a static point is not three pixels away: more find look-alikes
-  static constexpr float kSearchPrecision_px = 0.2f;
 
   static void order_by_place(Matches& matches, Workspace& workspace) {
     const Workspace::Scope scope(workspace);
@@ -113,7 +111,7 @@ class PastReprojection {
     const PastObservations& past = matches.past_observations;
     if (!is_finite(past.point[alike])) return;  // on no surface: not looked for
     const double depth_m = features.has_depth(i) ? features.depth_m[i] : past.point[alike].z();
-    suppose(i, depth_m, past.inverse_depth_sigma[alike], camera, matches);
+    set_depth_in_past(i, depth_m, past.inverse_depth_sigma[alike], camera, matches);
     const Vector2f beside = Vector2d(features.undistorted[i] - features.undistorted[alike]).cast<float>();
     for (OlderFrame& older : matches.past_observations.frames()) {
       Observation& observation = older.of_feature[i] = older.of_feature[alike];
@@ -128,13 +126,14 @@ class PastReprojection {
   /// sensor it lies on the farther surface, and where it looks changed its patch holds what hides it: nothing is known
   /// of it.
   template <class Camera, class Noise>
-  void look_beside(std::size_t i, const DepthShadow& shadow, const FrameHistory& history, const FrameView& current,
-                   const Camera& camera, const Noise& noise, Matches& matches) const {
+  void reproject_without_depth(std::size_t i, const DepthShadow& shadow, const FrameHistory& history,
+                               const FrameView& current, const Camera& camera, const Noise& noise,
+                               Matches& matches) const {
     const SurroundingDepth beside =
         surrounding_depth(current, matches.current.pixel[i], scaled_px(kSurrounding_px, camera), guard, noise);
     if (!(beside.farthest_m > 0)) return;
-    std::array<double, 2 + OlderFrameChoice::kLooks> candidates{beside.farthest_m, beside.nearest_m};
-    std::size_t count = beside.farthest_m - beside.nearest_m < kSameSurface.at(noise.sigma(beside.nearest_m)) ? 1 : 2;
+    std::array<double, 2 + OlderFrameChoice::kMostFrames> candidates{beside.farthest_m, beside.nearest_m};
+    std::size_t count = beside.is_bridged(noise) ? 1 : 2;
     const std::size_t supposed = count;
     for (const OlderFrame& older : std::as_const(matches.past_observations).frames()) {
       const double borrowed_m =
@@ -146,15 +145,17 @@ class PastReprojection {
     }
     const auto spread_of = [&](std::size_t c) {
       const double depth_m = candidates[c];
-      const double supposed_spread = supposed > 1 ? kSupposedSpread : kBridgedSpread;
+      const double supposed_spread =
+          supposed > 1 ? SurroundingDepth::kSupposedSpread : SurroundingDepth::kBridgedSpread;
       return c < supposed ? supposed_spread / depth_m : kBorrowedSigmas * noise.sigma(depth_m) / (depth_m * depth_m);
     };
     const span<OlderFrame> frames = matches.past_observations.frames();
-    std::array<Observation, OlderFrameChoice::kLooks> least_unlike;
+    std::array<Observation, OlderFrameChoice::kMostFrames> least_unlike;
     std::size_t best = count;
     float least = std::numeric_limits<float>::infinity();
     for (std::size_t c = count; c-- > 0;) {
-      const float dissimilarity = look(i, candidates[c], spread_of(c), least, history, current, camera, noise, matches);
+      const float dissimilarity =
+          reproject_at_depth(i, candidates[c], spread_of(c), least, history, current, camera, noise, matches);
       if (!(dissimilarity < least)) continue;
       least = dissimilarity;
       best = c;
@@ -169,16 +170,10 @@ class PastReprojection {
       if (farther_m > 0) return lie_in_shadow(i, farther_m, camera, matches);
       if (!any_compared) return forget(i, matches);
     }
-    suppose(i, candidates[best], is_confirmed ? spread_of(best) : kSupposedSpread / candidates[best], camera, matches);
+    set_depth_in_past(i, candidates[best],
+                      is_confirmed ? spread_of(best) : SurroundingDepth::kSupposedSpread / candidates[best], camera,
+                      matches);
     for (std::size_t f = 0; f < frames.size(); ++f) frames[f].of_feature[i] = least_unlike[f];
-  }
-
-  /// What is looked for: the feature at a depth.
-  template <class Camera>
-  static void suppose(std::size_t i, double depth_m, double inverse_depth_sigma, const Camera& camera,
-                      Matches& matches) {
-    matches.past_observations.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
-    matches.past_observations.inverse_depth_sigma[i] = inverse_depth_sigma;
   }
 
   static bool is_compared(const Observation& observation) noexcept { return std::isfinite(observation.dissimilarity); }
@@ -197,35 +192,36 @@ class PastReprojection {
   template <class Camera>
   static void lie_in_shadow(std::size_t i, double farther_m, const Camera& camera, Matches& matches) {
     forget(i, matches);
-    suppose(i, farther_m, kBridgedSpread / farther_m, camera, matches);
+    set_depth_in_past(i, farther_m, SurroundingDepth::kBridgedSpread / farther_m, camera, matches);
   }
 
   /// Looks for a feature in every older frame.
   /// @param most  of the sum that is returned: where it can't be less any more, looking ends
   /// @return how dissimilar it is, summed over the frames; one where it can't be compared counts as no evidence
   template <class Camera, class Noise>
-  float look(std::size_t i, double depth_m, double inverse_depth_sigma, float most, const FrameHistory& history,
-             const FrameView& current, const Camera& camera, const Noise& noise, Matches& matches) const {
+  float reproject_at_depth(std::size_t i, double depth_m, double inverse_depth_sigma, float most,
+                           const FrameHistory& history, const FrameView& current, const Camera& camera,
+                           const Noise& noise, Matches& matches) const {
     PastObservations& past_observations = matches.past_observations;
-    suppose(i, depth_m, inverse_depth_sigma, camera, matches);
+    set_depth_in_past(i, depth_m, inverse_depth_sigma, camera, matches);
     Patch patch;
     const Vector2f centre = rounded(matches.current.pixel[i]);
     const bool textured = cut_patch(current.gray, centre,
                                     PatchMask(current.depth, depth_m, kSameSurface.at(noise.sigma(depth_m))), patch) &&
-                          patch.count >= kFewestPixels;
+                          patch.is_comparable();
     const Vector3d point = point_at_depth(camera, centre, depth_m);
     float dissimilarity = 0;
-    const auto look_at = [&](OlderFrame& older) {
+    const auto observe = [&](OlderFrame& older) {
       Observation& observation = older.of_feature[i];
-      observation = look_in(history.back(older.age).view(), older.reference_from_current, point,
-                            inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
+      observation = observe_in(history.back(older.age).view(), older.reference_from_current, point,
+                               inverse_depth_sigma * depth_m * depth_m, textured ? &patch : nullptr, camera, noise);
       if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
       dissimilarity += dissimilarity_of(observation);
       return dissimilarity < most;
     };
     const span<OlderFrame> frames = past_observations.frames();
     const bool is_corner = i >= matches.host_count;  // which the motion leaves out where they are unlike
-    look_in_older_frames(i, frames, is_corner, look_at);
+    visit_older_frames(i, frames, is_corner, observe);
     if (!is_corner) forget_where_hidden(i, frames);
     dissimilarity = 0;  // with what was not looked at
     for (const OlderFrame& older : frames) {
@@ -236,10 +232,10 @@ class PastReprojection {
   }
 
   template <class Camera, class Noise>
-  Observation look_in(const FrameView& older, const Pose& reference_from_current, const Vector3d& point,
-                      double depth_sigma_m, const Patch* patch, const Camera& camera, const Noise& noise) const {
-    const StaticPlace place = PlaceTest{options.occlusion_sigmas, guard}.look(older, reference_from_current, point,
-                                                                              depth_sigma_m, camera, noise);
+  Observation observe_in(const FrameView& older, const Pose& reference_from_current, const Vector3d& point,
+                         double depth_sigma_m, const Patch* patch, const Camera& camera, const Noise& noise) const {
+    const StaticPlace place = PlaceTest{options.occlusion_sigmas, guard}.reproject(older, reference_from_current, point,
+                                                                                   depth_sigma_m, camera, noise);
     Observation observation = place.observation;
     const auto there_m = static_cast<double>(observation.depth_m);
     const auto there_sigma_m = static_cast<double>(observation.depth_sigma_m);
@@ -248,16 +244,13 @@ class PastReprojection {
     if (!place.in_view || patch == nullptr || observation.state == ObservationState::occluded) return observation;
     if (beside_occluder(older, place.pixel, place.nearer_than_m, scaled_px(kOccluderReach_px, camera)))
       return observation;
-    PatchSearch search{kSearchIterations, kSearchPrecision_px};
+    PatchSearch search = static_point_search();
     search.warp = view_warp(camera, point, place.point, reference_from_current);
     const PatchFit fit = find_patch(*patch, older.gray, place.pixel, search);
     if (!fit.inside) return observation;
     // Without depth and without texture there is nothing to compare with: a hand before the lens, a blown-out lamp.
     if (!(observation.depth_m > 0) && !(fit.contrast > kLeastContrast)) return observation;
-    observation.state = ObservationState::seen;
-    observation.dissimilarity = fit.dissimilarity;
-    observation.offset_px = fit.offset.norm();
-    observation.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
+    set_found(fit, place, camera, observation);
     return observation;
   }
 

@@ -24,6 +24,7 @@ struct Patch {
   static constexpr int kSide = PatchPixels::kSide;  ///< 8 pixels: −4 … +3 round its centre
   static constexpr int kHalf = kSide / 2;
   static constexpr int kMargin = kHalf + 1;  ///< a centre nearer to the border cannot be cut out
+  static constexpr int kFewestPixels = 25;   ///< of 64 that must lie on the centre's surface
 
   PatchPixels value;
   PatchPixels slope_x, slope_y;       ///< differences across two pixels: twice the gradient
@@ -39,6 +40,9 @@ struct Patch {
     const float trace_half = 0.5f * (hxx + hyy), difference_half = 0.5f * (hxx - hyy);
     return trace_half - std::sqrt(difference_half * difference_half + hxy * hxy);
   }
+
+  /// Whether enough of it takes part to be compared.
+  bool is_comparable() const noexcept { return count >= kFewestPixels; }
 
   /// Whether the mask leaves pixels out.
   bool is_partial() const noexcept { return count < static_cast<int>(PatchPixels::kCount); }

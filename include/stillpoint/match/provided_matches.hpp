@@ -15,10 +15,14 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
+#include "stillpoint/match/observation_order.hpp"
+#include "stillpoint/match/older_frame_choice.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/patch_observation.hpp"
 #include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/static_place.hpp"
 #include "stillpoint/match/surface_search.hpp"
@@ -92,15 +96,15 @@ class ProvidedMatches {
   void reproject_into_past(const FrameHistory& history, const FrameView& current, const Pose& filter_from_current,
                            const Camera& camera, const Noise& noise, Observations& observations) const {
     Matches& matches = observations.matches;
-    look_for_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
-                      matches.past_observations.frames());
+    observe_surfaces(surfaces, history, filter_from_current, camera, noise, matches.past_observations.surfaces,
+                     matches.past_observations.frames());
     for (std::size_t i = 0; i < matches.host_count && !matches.past_observations.frames().empty(); ++i) {
       if (matches.current.has_depth(i)) {
         const double depth_m = matches.current.depth_m[i];
-        look(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), history, current, camera, noise,
-             observations);
+        reproject_at_depth(i, depth_m, matches.current.depth_sigma_m[i] / (depth_m * depth_m), history, current, camera,
+                           noise, observations);
       } else if (tracks_.length(i) > 0) {
-        look_beside(i, history, current, camera, noise, observations);
+        reproject_without_depth(i, history, current, camera, noise, observations);
       }
     }
     space.count_views_through(history.space(), current.timestamp_s, filter_from_current, camera, noise, matches);
@@ -113,10 +117,6 @@ class ProvidedMatches {
 
  private:
   static constexpr float kDissimilarity = 0.06f;  // of a feature that the host has found: it has compared by itself
-  static constexpr double kSupposedSpread = 0.1;  // of the inverse depth between the surfaces beside a feature
-  static constexpr double kBridgedSpread = 0.03;  // where these are one surface
-  static constexpr float kLeastContrast = 3.0f;   // of a patch that can be compared, gray values
-  static constexpr int kFewestPixels = 25;        // of a patch's 64 that must lie on the feature's surface
 
   /// The pixels around a feature, cut out when they are asked for first.
   struct FeaturePatch {
@@ -128,7 +128,7 @@ class ProvidedMatches {
     bool cut(const FrameView& current) {
       if (!is_cut)
         has_texture = cut_patch(current.gray, rounded(pixel), PatchMask(current.depth, depth_m, tolerance_m), patch) &&
-                      patch.count >= kFewestPixels;
+                      patch.is_comparable();
       is_cut = true;
       return has_texture;
     }
@@ -143,7 +143,7 @@ class ProvidedMatches {
     for (std::size_t i = 0; i < matches.host_count; ++i) {
       if (!matches.matched(i) || !matches.current.has_depth(i)) continue;
       const double depth_m = matches.current.depth_m[i];
-      const double nearer_than_m = depth_m - PlaceTest::kOcclusion_m - places.occlusion_sigmas * noise.sigma(depth_m);
+      const double nearer_than_m = depth_m - places.margin_m(noise.sigma(depth_m));
       is_beside_[i] = beside_occluder(current, matches.current.pixel[i], nearer_than_m, reach_px);
     }
   }
@@ -151,36 +151,36 @@ class ProvidedMatches {
   /// A feature without a depth lies on one of the surfaces beside it: the one on which its track is nearer to that of a
   /// static point.
   template <class Camera, class Noise>
-  void look_beside(std::size_t i, const FrameHistory& history, const FrameView& current, const Camera& camera,
-                   const Noise& noise, Observations& observations) const {
+  void reproject_without_depth(std::size_t i, const FrameHistory& history, const FrameView& current,
+                               const Camera& camera, const Noise& noise, Observations& observations) const {
     const Matches& matches = observations.matches;
     const SurroundingDepth beside = surrounding_depth(current, matches.current.pixel[i],
                                                       scaled_px(options.surrounding_px, camera), surfaces.guard, noise);
     if (!(beside.farthest_m > 0)) return;
-    const bool is_bridged = beside.farthest_m - beside.nearest_m < DepthTolerance().at(noise.sigma(beside.nearest_m));
-    const double spread = is_bridged ? kBridgedSpread : kSupposedSpread;
-    const auto look_at = [&](double depth_m) {
-      return look(i, depth_m, spread / depth_m, history, current, camera, noise, observations);
+    const bool is_bridged = beside.is_bridged(noise);
+    const double spread = is_bridged ? SurroundingDepth::kBridgedSpread : SurroundingDepth::kSupposedSpread;
+    const auto offset_at = [&](double depth_m) {
+      return reproject_at_depth(i, depth_m, spread / depth_m, history, current, camera, noise, observations);
     };
-    const float far_px = look_at(beside.farthest_m);
-    if (!is_bridged && !(look_at(beside.nearest_m) < far_px)) look_at(beside.farthest_m);
+    const float far_px = offset_at(beside.farthest_m);
+    if (!is_bridged && !(offset_at(beside.nearest_m) < far_px)) offset_at(beside.farthest_m);
   }
 
-  /// Looks a feature up in the older frames.
+  /// Fills the feature's observations in the older frames, as if it were static at that depth.
   /// @return how far it was from the places of a static point, summed over the frames, pixels
   template <class Camera, class Noise>
-  float look(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
-             const FrameView& current, const Camera& camera, const Noise& noise, Observations& observations) const {
+  float reproject_at_depth(std::size_t i, double depth_m, double inverse_depth_sigma, const FrameHistory& history,
+                           const FrameView& current, const Camera& camera, const Noise& noise,
+                           Observations& observations) const {
     Matches& matches = observations.matches;
     PastObservations& past_observations = matches.past_observations;
-    past_observations.point[i] = camera.back_project(matches.current.undistorted[i], depth_m);
-    past_observations.inverse_depth_sigma[i] = inverse_depth_sigma;
+    set_depth_in_past(i, depth_m, inverse_depth_sigma, camera, matches);
     FeaturePatch patch{matches.current.pixel[i], depth_m, DepthTolerance().at(noise.sigma(depth_m))};
     float sum_px = 0;
-    const auto look_at = [&](OlderFrame& frame) {
+    const auto observe = [&](OlderFrame& frame) {
       const FrameView past = history.back(frame.age).view();
-      const StaticPlace place = places.look(past, frame.reference_from_current, past_observations.point[i],
-                                            inverse_depth_sigma * depth_m * depth_m, camera, noise);
+      const StaticPlace place = places.reproject(past, frame.reference_from_current, past_observations.point[i],
+                                                 inverse_depth_sigma * depth_m * depth_m, camera, noise);
       Observation& observation = frame.of_feature[i];
       observation = place.observation;
       if (!matches.current.has_depth(i)) observation.depth_m = 0;  // a supposed depth agrees with nothing
@@ -189,28 +189,27 @@ class ProvidedMatches {
       observation.state = ObservationState::seen;
       observation.dissimilarity = kDissimilarity;
       observation.found = tracks_.pixel(i, frame.age);
-      observation.offset_px = (observation.found - camera.project(place.point).template cast<float>()).norm();
+      const Vector2f found_px = camera.distort(observation.found.template cast<double>()).template cast<float>();
+      observation.offset_px = (found_px - place.pixel).norm();
       sum_px += observation.offset_px;
       if (observation.offset_px > options.objection_px &&
           !(observations.remembered.log_odds[i] > options.known_log_odds))
-        examine(patch, current, past, place, camera, observation);
+        compare_patch(patch, current, past, place, camera, observation);
       return true;
     };
-    look_in_older_frames(i, past_observations.frames(), false, look_at);
+    visit_older_frames(i, past_observations.frames(), false, observe);
     return sum_px;
   }
 
   /// A track objects: what does its patch say? It has the last word where it can be compared.
   template <class Camera>
-  static void examine(FeaturePatch& feature, const FrameView& current, const FrameView& past, const StaticPlace& place,
-                      const Camera& camera, Observation& observation) {
+  static void compare_patch(FeaturePatch& feature, const FrameView& current, const FrameView& past,
+                            const StaticPlace& place, const Camera& camera, Observation& observation) {
     if (!feature.cut(current)) return;
     const Vector2f beside = rounded(feature.pixel) - feature.pixel;
-    const PatchFit fit = find_patch(feature.patch, past.gray, place.pixel + beside, PatchSearch{3, 0.2f});
+    const PatchFit fit = find_patch(feature.patch, past.gray, place.pixel + beside, static_point_search());
     if (!fit.inside || !(fit.contrast > kLeastContrast)) return;
-    observation.dissimilarity = fit.dissimilarity;
-    observation.offset_px = fit.offset.norm();
-    observation.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
+    set_found(fit, place, camera, observation);
   }
 
   TrackHistory tracks_;

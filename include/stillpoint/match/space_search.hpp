@@ -25,7 +25,7 @@ namespace stillpoint {
 /// to 79 % of those that move.
 class SpaceSearch {
  public:
-  /// Counts in `past_observations.seen_through` the views that saw something farther where each feature is now.
+  /// Counts in `past_observations.views_through` the views that saw something farther where each feature is now.
   /// @param filter_from_current  where the camera is now
   template <class Camera, class Noise>
   void count_views_through(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_current,
@@ -34,7 +34,7 @@ class SpaceSearch {
     for_each_view(history, timestamp_s, filter_from_current, camera, noise, [&](double, const auto& look) {
       for (std::size_t i = 0; i < matches.size(); ++i)
         if (!matches.past_observations.is_guess(i) && look(matches.past_observations.point[i]) == Space::free)
-          ++matches.past_observations.seen_through[i];
+          ++matches.past_observations.views_through[i];
     });
   }
 
@@ -60,16 +60,16 @@ class SpaceSearch {
       }
       if (static_cast<double>(through) > kMostCame * static_cast<double>(through + there)) return;
       const bool is_old = elapsed_s > kSettled_s, is_early = elapsed_s >= early_s;
-      const auto judge = [&](Space seen, float& static_prior, std::uint8_t& was_there, std::uint8_t& was_early) {
+      const auto judge = [&](Space seen, float& static_prior, std::uint8_t& occupied_views, std::uint8_t& was_early) {
         if (seen == Space::free) static_prior = std::min(static_prior, kFreeSpaceStaticPrior);
-        if (seen == Space::occupied && is_old) ++was_there;
+        if (seen == Space::occupied && is_old) ++occupied_views;
         if (seen == Space::occupied && is_early) was_early = 1;
       };
       for (std::size_t s = 0; s < cells.size(); ++s)
-        judge(cells[s].seen, cells[s].space_static_prior, cells[s].was_there, seen_early.cells[s]);
+        judge(cells[s].seen, cells[s].space_static_prior, cells[s].occupied_views, seen_early.cells[s]);
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
         if (matches.current.has_depth(i))
-          judge(look(matches.current.point[i]), matches.space_static_prior[i], matches.was_there[i],
+          judge(look(matches.current.point[i]), matches.space_static_prior[i], matches.occupied_views[i],
                 seen_early.corners[i]);
     });
     spread_to_unseen(static_cast<float>(step_px), camera.fx(), seen_early, matches, workspace);

@@ -17,6 +17,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/past_observations.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/surface_search.hpp"
 
@@ -33,16 +34,18 @@ struct StaticPlace {
 
 /// Looks at static places.
 struct PlaceTest {
-  static constexpr double kOcclusion_m = 0.15;  ///< a surface this much nearer hides the point …
-
-  double occlusion_sigmas = 4.0;  ///< … and this many standard deviations of both depths more
+  double occlusion_sigmas = 4.0;  ///< of both depths, by which what hides the point is nearer, besides 15 cm
   GuardedDepth guard;             ///< which depth of a past frame belongs to a pixel?
+
+  /// By how much a surface that hides the point must be nearer.
+  /// @param sigma_m  of the difference of both depths
+  double margin_m(double sigma_m) const noexcept { return kOcclusion_m + occlusion_sigmas * sigma_m; }
 
   /// @param point          in the current camera, metres
   /// @param depth_sigma_m  of that point's depth
   template <class Camera, class Noise>
-  StaticPlace look(const FrameView& past, const Pose& past_from_current, const Vector3d& point, double depth_sigma_m,
-                   const Camera& camera, const Noise& noise) const {
+  StaticPlace reproject(const FrameView& past, const Pose& past_from_current, const Vector3d& point,
+                        double depth_sigma_m, const Camera& camera, const Noise& noise) const {
     StaticPlace place;
     place.point = past_from_current * point;
     if (!(place.point.z() > SurfaceSearch::kNearest_m)) return place;
@@ -50,9 +53,7 @@ struct PlaceTest {
     if (!(past.gray.border_distance_px(place.pixel.x(), place.pixel.y()) >= 1.0f)) return place;
     place.in_view = true;
     const double sigma_m = noise.sigma(place.point.z());
-    const double margin_m =
-        kOcclusion_m + occlusion_sigmas * std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m);
-    place.nearer_than_m = place.point.z() - margin_m;
+    place.nearer_than_m = place.point.z() - margin_m(std::sqrt(sigma_m * sigma_m + depth_sigma_m * depth_sigma_m));
     const double measured_m = guard.at(past, place.pixel, noise);
     if (!(measured_m > 0)) return place;
     place.observation.depth_m = static_cast<float>(measured_m);
@@ -60,6 +61,9 @@ struct PlaceTest {
     place.observation.state = measured_m < place.nearer_than_m ? ObservationState::occluded : ObservationState::seen;
     return place;
   }
+
+ private:
+  static constexpr double kOcclusion_m = 0.15;
 };
 
 namespace detail {
@@ -108,12 +112,6 @@ inline bool beside_occluder(const FrameView& frame, const Vector2f& pixel, doubl
   const auto nearer_than =
       static_cast<std::uint16_t>(std::clamp(std::ceil(nearer_than_m * frame.depth.factor), 0.0, kMost));
   return detail::beside_nearer(depth, to_depth, pixel, nearer_than, reach_px);
-}
-
-/// A length that options give for a focal length of 525 px, in whole pixels of this camera.
-template <class Camera>
-int scaled_px(int length_px, const Camera& camera) noexcept {
-  return rounded(pixel_scale(camera) * static_cast<float>(length_px));
 }
 
 template <class Visit>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// What nobody saw before belongs to the surface beside it.   Static prior of some cells → of all
+// Which cells of surface adjoin each other, in the image and in depth?
 
 #include <algorithm>
 #include <cmath>

@@ -14,6 +14,7 @@
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/past_observations.hpp"
+#include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/match/patch.hpp"
@@ -35,7 +36,7 @@ struct SurfaceSearch {
     };
     surfaces.clear();
     const int step = scaled_step_px(camera);
-    const int reach = std::max(1, rounded(pixel_scale(camera) * static_cast<float>(kReach_px)));
+    const int reach = std::max(1, scaled_px(kReach_px, camera));
     for (int v = step / 2; v < current.gray.height; v += step) {
       for (int u = step / 2; u < current.gray.width; u += step) {
         const Vector3d centre = point_at(u, v);
@@ -57,13 +58,13 @@ struct SurfaceSearch {
   /// Spacing of the cells, in whole pixels of this camera.
   template <class Camera>
   int scaled_step_px(const Camera& camera) const noexcept {
-    return std::max(1, rounded(pixel_scale(camera) * static_cast<float>(step_px)));
+    return std::max(1, scaled_px(step_px, camera));
   }
 
   /// The surface that an older frame shows where a static cell would have been.
   template <class Camera, class Noise>
-  SurfaceObservation look(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
-                          const Camera& camera, const Noise& noise) const {
+  SurfaceObservation observe(const SurfaceCell& cell, const FrameView& older, const Pose& reference_from_current,
+                             const Camera& camera, const Noise& noise) const {
     const Vector3d there = reference_from_current * cell.point;
     if (!(there.z() > kNearest_m)) return {};
     const Vector2f place = image_pixel(camera, there);

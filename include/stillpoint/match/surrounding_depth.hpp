@@ -12,6 +12,8 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
+#include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 
 namespace stillpoint {
@@ -19,6 +21,15 @@ namespace stillpoint {
 /// The nearest and the farthest surface beside a pixel, metres; both 0 where there is none.
 struct SurroundingDepth {
   double nearest_m = 0, farthest_m = 0;
+
+  static constexpr double kSupposedSpread = 0.1;  ///< standard deviation of a supposed inverse depth, as a share of it
+  static constexpr double kBridgedSpread = 0.03;  ///< the same, where all that is beside it is one surface
+
+  /// Whether both are one surface.
+  template <class Noise>
+  bool is_bridged(const Noise& noise) const {
+    return farthest_m - nearest_m < DepthTolerance().at(noise.sigma(nearest_m));
+  }
 };
 
 namespace detail {

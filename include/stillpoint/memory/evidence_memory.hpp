@@ -66,7 +66,7 @@ class EvidenceMemory {
       const Vector2f pixel = matches.matched(i) ? matches.reference.pixel[i]
                                                 : steps.before(here, depth_m, tolerance_m, matches.predicted[i]);
       recalled_[i] = look_up(points, pixel, depth_m, tolerance_m);
-      if (settled(matches.was_there[i], matches.space_static_prior[i])) recalled_[i].dynamic_prior = 0;
+      if (settled(matches.occupied_views[i], matches.space_static_prior[i])) recalled_[i].dynamic_prior = 0;
       recalled_[i].by_map = evidence_of_map(pixel, depth_m, tolerance_m, neighbour_px);
       remembered.static_prior[i] = std::min(matches.space_static_prior[i], static_prior(recalled_[i].dynamic_prior));
       remembered.log_odds[i] = recalled_[i].log_odds;
@@ -76,7 +76,7 @@ class EvidenceMemory {
       const double depth_m = cell.point.z(), tolerance_m = kSameSurface.at(cell.depth_sigma_m);
       recalled_of_cell_[s] =
           look_up(points, steps.before(cell.pixel, depth_m, tolerance_m, cell.predicted), depth_m, tolerance_m);
-      if (settled(cell.was_there, cell.space_static_prior)) recalled_of_cell_[s].dynamic_prior = 0;
+      if (settled(cell.occupied_views, cell.space_static_prior)) recalled_of_cell_[s].dynamic_prior = 0;
       remembered.surface_static_prior[s] =
           std::min(cell.space_static_prior, static_prior(recalled_of_cell_[s].dynamic_prior));
     }
@@ -167,8 +167,8 @@ class EvidenceMemory {
   }
 
   /// Two views of seconds ago saw it in its place, and none saw through: it is static.
-  static bool settled(std::uint8_t was_there, float space_static_prior) noexcept {
-    return was_there >= 2 && space_static_prior >= 1.0f;
+  static bool settled(std::uint8_t occupied_views, float space_static_prior) noexcept {
+    return occupied_views >= 2 && space_static_prior >= 1.0f;
   }
 
   /// At a low rate of frames less evidence is averaged, and its noise is larger: 1 / (1 − persistence) frames count.

@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
@@ -31,14 +30,11 @@ class NeighbourSteps {
   /// @param if_static   where it was if it stands still: the answer where there is no such neighbour
   Vector2f before(const Vector2f& pixel, double depth_m, double tolerance_m, const Vector2f& if_static) const {
     if (!(depth_m > 0)) return if_static;
-    float nearest = std::numeric_limits<float>::infinity();
-    Vector2f found = if_static;
-    grid_.within(pixel, reach_px_, [&](std::size_t j, float squared) {
-      if (!(squared < nearest) || !(std::abs(matches_.current.depth_m[j] - depth_m) <= tolerance_m)) return;
-      nearest = squared;
-      found = pixel + matches_.reference.pixel[j] - matches_.current.pixel[j];
+    const std::size_t nearest = grid_.nearest(pixel, reach_px_, [&](std::size_t j, float) {
+      return std::abs(matches_.current.depth_m[j] - depth_m) <= tolerance_m;
     });
-    return found;
+    if (nearest == PixelGrid::kNone) return if_static;
+    return pixel + matches_.reference.pixel[nearest] - matches_.current.pixel[nearest];
   }
 
  private:

@@ -49,7 +49,7 @@ class MoverTracking {
     double pixel_sigma = 0.5;         ///< of a match, pixels
   };
   Options options;
-  bool is_on = true;       ///< off: objects are forgotten, and nothing is spent; may change between frames. No option
+  bool is_enabled = true;  ///< off: objects are forgotten, and nothing is spent; may change between frames. No option
   bool gives_back = true;  ///< kept features that move with the object that they lie on are dropped. No option
 
   /// @param motion  of the camera, in metres
@@ -58,7 +58,7 @@ class MoverTracking {
   template <class Camera>
   void track(const FrameView& frame, const Observations& observations, const Motion& motion, const Camera& camera,
              span<Label> labels, Movers& result, Workspace& workspace) {
-    if (!is_on) return reset();
+    if (!is_enabled) return reset();
     const Workspace::Scope scope(workspace);
     const Matches& matches = observations.matches;
     objects_.reserve(kMostObjects);  // with the first frame, not with the first that moves

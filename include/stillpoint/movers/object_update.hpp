@@ -16,6 +16,7 @@
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/movers/appearance.hpp"
 #include "stillpoint/movers/moving_features.hpp"
 #include "stillpoint/movers/object_motion.hpp"

@@ -23,7 +23,9 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
+#include "stillpoint/pipeline/mean_velocity.hpp"
 
 namespace stillpoint {
 
@@ -50,10 +52,10 @@ class MaskPrediction {
     pixel_ = matches.current.pixel;
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const bool followed = matches.matched(i);
-      Vector2f velocity_px = Vector2f::Zero();
+      Vector2f velocity_px_s = Vector2f::Zero();
       if (followed)
-        velocity_px = (matches.current.pixel[i] - matches.reference.pixel[i]) / static_cast<float>(matches.elapsed_s);
-      seen_.push_back({velocity_px, static_cast<float>(matches.current.depth_m[i]),
+        velocity_px_s = (matches.current.pixel[i] - matches.reference.pixel[i]) / static_cast<float>(matches.elapsed_s);
+      seen_.push_back({velocity_px_s, static_cast<float>(matches.current.depth_m[i]),
                        static_cast<float>(kSameSurface.at(matches.current.depth_sigma_m[i])), moves(labels[i]),
                        followed});
     }
@@ -73,7 +75,7 @@ class MaskPrediction {
         const Vector3d next = mover.current_from_reference * matches.current.point[i];
         if (!(next.z() > 0)) continue;
         const Vector2d step = camera.distort(camera.project(next)) - pixel_[i].cast<double>();
-        seen.velocity_px = (step / matches.elapsed_s).template cast<float>();
+        seen.velocity_px_s = (step / matches.elapsed_s).template cast<float>();
         seen.followed |= mover.has_rotation;
       }
     }
@@ -100,28 +102,26 @@ class MaskPrediction {
     const ImageView image(nullptr, width, height, 0, PixelFormat::gray8);
     const Workspace::Scope scope(workspace);
     const auto reach_px = static_cast<float>(reach_px_);
-    const float step_s = ahead_s < kMostStretch * elapsed_s_ ? static_cast<float>(ahead_s) : 0.0f;
+    const float step_s = ahead_s < MeanVelocity::kMostStretch * elapsed_s_ ? static_cast<float>(ahead_s) : 0.0f;
     const PixelGrid around(pixel_, reach_px, workspace, [](std::size_t) { return true; });
     const PixelGrid followed(pixel_, 2 * reach_px, workspace,
                              [&](std::size_t j) { return seen_[j].moves && seen_[j].followed; });
     for (std::size_t i = 0; i < seen_.size(); ++i)
       if (seen_[i].moves && is_finite(pixel_[i]))
-        mark(i, with_surface(i, around), step_s * velocity_px(i, followed), depth, image);
+        mark(i, with_surface(i, around), step_s * velocity_px_s(i, followed), depth, image);
     drop_marked(std::clamp(margin_px, 0, width + height), mask);
   }
 
  private:
   struct Seen {
-    Vector2f velocity_px;  ///< per second, by its match or its object; else 0
-    float depth_m;         ///< 0 where there is none
-    float tolerance_m;     ///< by which depths on its surface may differ
+    Vector2f velocity_px_s;  ///< by its match or its object; else 0
+    float depth_m;           ///< 0 where there is none
+    float tolerance_m;       ///< by which depths on its surface may differ
     bool moves;
     bool followed;  ///< its own velocity is better than that of those around it
   };
   static constexpr int kCell_px = 4;
   static constexpr double kLongestGap_s = 1.0;  // farther ahead nothing is predicted
-  static constexpr double kMostStretch =
-      10.0;  // of the time in which they went: stamps next to each other tell no velocity
   static constexpr DepthTolerance kSameSurface{0.06};
 
   static bool one_surface(const Seen& seen, float other_m) noexcept {
@@ -140,17 +140,17 @@ class MaskPrediction {
   }
 
   /// How fast feature `i` goes: by itself, else with the moving ones around it, else with its object.
-  Vector2f velocity_px(std::size_t i, const PixelGrid& followed) const {
-    if (seen_[i].followed) return seen_[i].velocity_px;
+  Vector2f velocity_px_s(std::size_t i, const PixelGrid& followed) const {
+    if (seen_[i].followed) return seen_[i].velocity_px_s;
     const auto reach_px = static_cast<float>(2 * reach_px_);
     Vector2f sum = Vector2f::Zero();
     float weight = 0;
     followed.within(pixel_[i], reach_px, [&](std::size_t j, float squared) {
       const float near = 1 - squared / (reach_px * reach_px);
       weight += near;
-      sum += near * seen_[j].velocity_px;
+      sum += near * seen_[j].velocity_px_s;
     });
-    if (!(weight > 0)) return seen_[i].velocity_px;
+    if (!(weight > 0)) return seen_[i].velocity_px_s;
     return sum / weight;
   }
 
@@ -163,9 +163,8 @@ class MaskPrediction {
       for (int du = -reach_px_; du <= reach_px_; du += kCell_px) {
         if (du * du + dv * dv > reach_px_ * reach_px_) continue;
         const Vector2f pixel = pixel_[i] + Vector2f(static_cast<float>(du), static_cast<float>(dv));
-        const Vector2f there = to_depth(pixel);
-        const auto u = static_cast<int>(std::lround(there.x())), v = static_cast<int>(std::lround(there.y()));
-        if (depth.image.contains(u, v) && one_surface(seen_[i], depth.metres(u, v))) mark_cell(pixel + step);
+        const auto depth_m = static_cast<float>(RoundedDepth{}.at(depth, to_depth(pixel)));
+        if (one_surface(seen_[i], depth_m)) mark_cell(pixel + step);
       }
     }
   }

@@ -16,6 +16,8 @@ namespace stillpoint {
 class MeanVelocity {
  public:
   static constexpr double kMemory_s = 0.1;
+  /// A single step is carried on for at most so many times its own time: stamps next to each other give no velocity.
+  static constexpr double kMostStretch = 10.0;
 
   /// @param elapsed_s  within which the camera moved so, positive
   void add(const Pose& current_from_reference, double elapsed_s) {

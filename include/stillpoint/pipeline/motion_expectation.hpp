@@ -56,7 +56,7 @@ class MotionExpectation {
     prior.is_told = said_.has_value();
     if (said_)
       prior.current_from_reference = said_;
-    else if (last_motion_ && prior.elapsed_s < kMostStretch * last_interval_s_)
+    else if (last_motion_ && prior.elapsed_s < MeanVelocity::kMostStretch * last_interval_s_)
       prior.current_from_reference = scaled(*last_motion_, prior.elapsed_s / last_interval_s_);
     else if (last_motion_ && prior.elapsed_s > 0)
       prior.current_from_reference = mean_velocity_.during(prior.elapsed_s);
@@ -84,8 +84,6 @@ class MotionExpectation {
   const std::optional<double>& last_timestamp_s() const noexcept { return last_timestamp_s_; }
 
  private:
-  static constexpr double kMostStretch = 10.0;  // in time: stamps that are next to each other give no velocity
-
   std::optional<Pose> said_;
   MeanVelocity mean_velocity_;       // of the motions that were found; the host's own poses do not change it
   std::optional<Pose> last_motion_;  // what was done within last_interval_s_

@@ -75,7 +75,7 @@ Pose align(Matcher& matcher, const FrameView& reference, const FrameView& curren
     return guess;
 }
 
-/// Before the motion: a matcher may choose_keyframes older frames, and say what came within the past seconds.
+/// Before the motion: a matcher may choose older frames, and say what came within the past seconds.
 /// @param current_from_reference  roughly
 template <class Matcher, class Camera, class Noise>
 void choose_keyframes([[maybe_unused]] Matcher& matcher, [[maybe_unused]] const FrameHistory& history,
@@ -105,8 +105,8 @@ void recall([[maybe_unused]] Memory& memory, const Matches& matches, Remembered&
 
 /// After the motion: where it is in doubt, a matcher that sees the whole frames may contradict it.
 template <class Matcher, class Camera>
-void confirm([[maybe_unused]] const Matcher& matcher, [[maybe_unused]] const Camera& camera,
-             [[maybe_unused]] Motion& motion) {
+void refuse_if_contradicted([[maybe_unused]] const Matcher& matcher, [[maybe_unused]] const Camera& camera,
+                            [[maybe_unused]] Motion& motion) {
   if constexpr (contradicts<Matcher, Camera>::value) {
     if (!motion.usable() || !motion.doubtful) return;
     if (matcher.contradicts(inverted(motion.current_from_reference), camera)) motion.refuse(Status::no_consensus);

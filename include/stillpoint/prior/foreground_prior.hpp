@@ -10,6 +10,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/prior/box_prior.hpp"
 #include "stillpoint/prior/object_depth.hpp"
 

@@ -16,6 +16,7 @@
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 

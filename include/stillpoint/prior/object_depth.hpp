@@ -13,6 +13,7 @@
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/statistics.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 

@@ -19,6 +19,7 @@
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/prior/carried_detection.hpp"
 #include "stillpoint/prior/foreground_prior.hpp"
 #include "stillpoint/prior/image_motion.hpp"

@@ -58,7 +58,7 @@ class ReprojectionScore {
         second = std::max(second, std::min(most, evidence));
         most = std::max(most, evidence);
       }
-      const double through = std::min(kPerViewThrough * matches.past_observations.seen_through[i], kMostFromThrough);
+      const double through = std::min(kPerViewThrough * matches.past_observations.views_through[i], kMostFromThrough);
       const bool is_seen = most > kNever;
       const double recent = second > kNever ? 0.5 * (most + second) : is_seen ? kSingleShare * most : 0.0;
       if (!is_seen && !(through > 0)) continue;

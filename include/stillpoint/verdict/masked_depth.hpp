@@ -14,6 +14,7 @@
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/mask.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 /// A copy of the depth image with 0, no depth, where the mask drops: for hosts that take depth and no mask.

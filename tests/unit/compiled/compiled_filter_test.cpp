@@ -126,7 +126,7 @@ TEST(CompiledFilter, HasMoversWhereTheyAreAskedFor) {
   EXPECT_NE(options_as_yaml(with).find("movers:\n  fewest_features: 8\n  least_path_m: 0.01"), std::string::npos);
   for (std::size_t i = 0; i < result.size(); ++i) EXPECT_EQ(result.keep()[i], verdicts.keep()[i]);
 
-  with.movers.is_on = false;
+  with.movers.is_enabled = false;
   const Scene next(kFrames);
   EXPECT_TRUE(with.filter_frame(next.frame(), next.keypoints).movers().empty());
 }

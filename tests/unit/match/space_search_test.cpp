@@ -89,7 +89,7 @@ class SpaceSearchTest : public testing::Test {
     matches.past_observations.point[0] = camera_.back_project({160, 120}, depth_m);
     matches.past_observations.inverse_depth_sigma[0] = spread / depth_m;
     search_.count_views_through(history_, kNow_s, filter_from_current, camera_, KinectNoise(), matches);
-    return matches.past_observations.seen_through[0];
+    return matches.past_observations.views_through[0];
   }
 
   /// Static prior of a surface cell at `depth_m` beside `others` cells on the wall, and how often it was there.
@@ -150,9 +150,9 @@ TEST_F(SpaceSearchTest, TheMotionSinceIsTakenOut) {
 
 TEST_F(SpaceSearchTest, ASurfaceThatCameHasLittleSay) {
   EXPECT_LT(cell(2.0, 9).space_static_prior, 0.1f);
-  EXPECT_EQ(cell(2.0, 9).was_there, 0);
+  EXPECT_EQ(cell(2.0, 9).occupied_views, 0);
   EXPECT_EQ(cell(3.0, 9).space_static_prior, 1.0f);
-  EXPECT_EQ(cell(3.0, 9).was_there, 6) << "views of 2.4 to 4.4 s ago";
+  EXPECT_EQ(cell(3.0, 9).occupied_views, 6) << "views of 2.4 to 4.4 s ago";
 }
 
 // One of one saw through: more than what people hide of a room. The view's pose is in doubt, not the surface.
@@ -218,7 +218,7 @@ TEST_F(SpaceSearchTest, AtTheBeginningTheOldestViewsTellTheRoomFromWhoCame) {
     for (const SurfaceCell& cell : matches.past_observations.surfaces) {
       const bool is_static = cell.pixel.y() > 110 && early_ones_saw_the_wall;
       EXPECT_EQ(cell.space_static_prior >= 1.0f, is_static) << cell.pixel.transpose();
-      EXPECT_EQ(cell.was_there, 0) << "no view is old enough to say so";
+      EXPECT_EQ(cell.occupied_views, 0) << "no view is old enough to say so";
     }
   }
 }

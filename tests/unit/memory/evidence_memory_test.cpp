@@ -374,21 +374,21 @@ TEST_F(EvidenceMemoryTest, SurfaceCellsHaveThePriorOfTheFeaturesOnThem) {
 // Two views of seconds ago saw a surface in its place, and none saw through: a dynamic prior there is a mistake.
 TEST_F(EvidenceMemoryTest, AfterSecondsAtRestTheDynamicPriorIsGone) {
   frame({{Vector2f(50, 50)}}, {5.0f});
-  for (const auto& [was_there, space_static_prior, expected] :
+  for (const auto& [occupied_views, space_static_prior, expected] :
        {std::tuple(0, 1.0f, 0.109f), {1, 1.0f, 0.109f}, {2, 1.0f, 1.0f}, {2, 0.5f, 0.109f}}) {
     const std::vector<Vector2f> pixels = {{50, 50}};
     matches_.begin(pixels);
     matches_.elapsed_s = kElapsed_s;
     matches_.current.depth_m[0] = 2.0;
     matches_.current.depth_sigma_m[0] = 0.008;
-    matches_.was_there[0] = static_cast<std::uint8_t>(was_there);
+    matches_.occupied_views[0] = static_cast<std::uint8_t>(occupied_views);
     matches_.space_static_prior[0] = space_static_prior;
     matches_.past_observations.surfaces = {cell(50, 2.0)};
-    matches_.past_observations.surfaces[0].was_there = static_cast<std::uint8_t>(was_there);
+    matches_.past_observations.surfaces[0].occupied_views = static_cast<std::uint8_t>(occupied_views);
     matches_.past_observations.surfaces[0].space_static_prior = space_static_prior;
     recall();
-    EXPECT_NEAR(remembered_.static_prior[0], expected, kRounding) << was_there << " " << space_static_prior;
-    EXPECT_NEAR(remembered_.surface_static_prior[0], expected, kRounding) << was_there << " " << space_static_prior;
+    EXPECT_NEAR(remembered_.static_prior[0], expected, kRounding) << occupied_views << " " << space_static_prior;
+    EXPECT_NEAR(remembered_.surface_static_prior[0], expected, kRounding) << occupied_views << " " << space_static_prior;
   }
 }
 

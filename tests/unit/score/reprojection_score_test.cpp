@@ -196,7 +196,7 @@ TEST_F(ReprojectionScoreTest, WhatWasNotSeenIsNotScored) {
 TEST_F(ReprojectionScoreTest, WhatCameWhereSpaceWasFreeMoves) {
   const float plain = evidence({2, 0}, 0.0f);
   for (const auto& [views, nats] : {std::pair(1, 4.0f), std::pair(2, 8.0f), std::pair(5, 8.0f)}) {
-    matches_.past_observations.seen_through[0] = static_cast<std::uint8_t>(views);
+    matches_.past_observations.views_through[0] = static_cast<std::uint8_t>(views);
     EXPECT_NEAR(score(), plain + nats, kRounding) << views;
     for (OlderFrame& frame : matches_.past_observations.frames()) frame.of_feature[0].state = ObservationState::none;
     EXPECT_NEAR(score(), nats, kRounding) << "it needs no match";
