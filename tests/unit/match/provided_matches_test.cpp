@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
+#include "stillpoint/core/distortion.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/opencv.hpp"
@@ -136,7 +137,7 @@ class ChainedTracksTest : public testing::Test {
     return columns;
   }
 
-  const Camera camera_{150, 150, 79.5, 59.5, kWidth, kHeight};
+  Camera camera_{150, 150, 79.5, 59.5, kWidth, kHeight};
   cv::Mat gray_ = cv::Mat(kHeight, kWidth, CV_8UC1, cv::Scalar(100));
   cv::Mat depth_ = cv::Mat(kHeight, kWidth, CV_32FC1, cv::Scalar(2.0));
   double time_s_ = 0, rate_hz_ = 30;
@@ -171,6 +172,16 @@ TEST_F(ChainedTracksTest, ATrackSkipsTheFramesThatTheHistorySkips) {
   }
   EXPECT_EQ(matches_.past_observations.frames().size(), 3u);
   EXPECT_GT(oldest_s, 16 / rate_hz_);
+}
+
+/// (148 − 79.5) / 60 = 1.14 rad aside, an undistorted pixel is 1 / cos² 1.14 = 5.8 times as small.
+TEST_F(ChainedTracksTest, HowFarATrackIsFromItsPlaceIsMeasuredInTheImageWhateverTheLens) {
+  camera_ = Camera(60, 60, 79.5, 59.5, kWidth, kHeight, EquidistantFisheye{});
+  next({{148, 59.5f}}, {{kNaN, kNaN}});
+  next({{148, 59.5f}}, {{147.5f, 59.5f}});
+  const Observation& observation = matches_.past_observations.frames()[0].of_feature[0];
+  ASSERT_EQ(observation.state, ObservationState::seen);
+  EXPECT_NEAR(observation.offset_px, 0.5f, 0.01f) << "it was 2.8";
 }
 
 TEST_F(ChainedTracksTest, AFeatureGoesOnFromTheNearestOneOfTheLastFrame) {
