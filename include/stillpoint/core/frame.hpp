@@ -5,9 +5,7 @@
 // What a host hands to the filter for one moment in time. Owns nothing.
 
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "stillpoint/core/image.hpp"

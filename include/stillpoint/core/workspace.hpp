@@ -6,7 +6,6 @@
 // stages allocate nothing once the largest frame has been seen.
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <new>
 #include <type_traits>

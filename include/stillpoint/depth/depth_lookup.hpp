@@ -4,7 +4,6 @@
 
 // The depth that belongs to a keypoint: a pixel of the depth image, or nothing.
 
-#include <cmath>
 #include <cstddef>
 
 #include "stillpoint/core/capabilities.hpp"

@@ -5,7 +5,6 @@
 // Corners of our own, followed from the current frame to the last one, coarse to fine.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>

@@ -5,7 +5,6 @@
 // How the image moved from frame to frame, remembered for answers that come late.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
