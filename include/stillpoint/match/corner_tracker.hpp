@@ -24,6 +24,7 @@
 #include "stillpoint/match/coarse_alignment.hpp"
 #include "stillpoint/match/grid_corners.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/pyramid.hpp"
 
 namespace stillpoint {

@@ -27,6 +27,7 @@
 #include "stillpoint/match/older_frame_choice.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/patch_observation.hpp"
 #include "stillpoint/match/same_place.hpp"
 #include "stillpoint/match/space_search.hpp"

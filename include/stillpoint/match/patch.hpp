@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Small square patches: cut out of one image, found again in another.
+// Small square patches, cut out of an image.
 
 #include <algorithm>
 #include <array>
@@ -35,12 +35,6 @@ struct Patch {
   float energy = 0;                   ///< Σ value², values without their mean
   float hxx = 0, hxy = 0, hyy = 0;    ///< Σ gradient gradientᵀ, gradients without their mean: the structure tensor
 
-  /// Smaller eigenvalue of the structure tensor: how well the patch can be located in its worst direction.
-  float corner_strength() const noexcept {
-    const float trace_half = 0.5f * (hxx + hyy), difference_half = 0.5f * (hxx - hyy);
-    return trace_half - std::sqrt(difference_half * difference_half + hxy * hxy);
-  }
-
   /// Whether enough of it takes part to be compared.
   bool is_comparable() const noexcept { return count >= kFewestPixels; }
 
@@ -51,14 +45,6 @@ struct Patch {
   float centred(std::int64_t product, std::int64_t sum_a, std::int64_t sum_b) const noexcept {
     return static_cast<float>(count * product - sum_a * sum_b);
   }
-};
-
-/// Where a patch was found.
-struct PatchFit {
-  Vector2f offset = Vector2f::Zero();  ///< from where the search began, pixels
-  float dissimilarity = 2.0f;  ///< 1 − zero-mean normalised cross-correlation: 0 alike, 1 unrelated, 2 inverted
-  float contrast = 0;          ///< standard deviation of the gray values there
-  bool inside = false;         ///< false: the patch left the image
 };
 
 /// Which pixels of a patch lie on the surface of its centre. Pixels without a depth are taken to.
@@ -159,119 +145,6 @@ inline bool cut_patch(const ImageView& gray, const Vector2f& centre, const Patch
   patch.hxy = quarter * patch.centred(product(patch.slope_x, patch.slope_y), patch.sum_x, patch.sum_y);
   patch.hyy = quarter * patch.centred(product(patch.slope_y, patch.slope_y), patch.sum_y, patch.sum_y);
   return true;
-}
-
-/// How `find_patch` searches.
-struct PatchSearch {
-  int iterations = 5;          ///< steps of at most a pixel
-  float precision_px = 0.03f;  ///< a smaller step is the last
-  float reach_px = 3.0f;       ///< the offset is held within this radius
-  /// What a step of one pixel in the patch is in the other image: scale, rotation and shear between the views.
-  Eigen::Matrix2f warp = Eigen::Matrix2f::Identity();
-};
-
-namespace detail {
-
-/// Samples a patch bilinearly round `centre`; false when it leaves the image.
-inline bool sample_patch(const ImageView& gray, const Vector2f& centre, const Eigen::Matrix2f& warp, bool shifted_only,
-                         PatchPixels& out) noexcept {
-  constexpr int kSide = Patch::kSide, kHalf = Patch::kHalf;
-  if (shifted_only) {
-    const float x = centre.x() - kHalf, y = centre.y() - kHalf;
-    if (!(x >= 0 && y >= 0 && x + kSide + 1 < static_cast<float>(gray.width) &&
-          y + kSide + 1 < static_cast<float>(gray.height)))
-      return false;
-    const int u = static_cast<int>(x), v = static_cast<int>(y);
-    const BilinearWeights weights(x - static_cast<float>(u), y - static_cast<float>(v));
-    sample_square(gray.row<std::uint8_t>(v) + u, gray.stride_bytes, weights, out);
-    return true;
-  }
-  const float reach_x = kHalf * (std::abs(warp(0, 0)) + std::abs(warp(0, 1)));
-  const float reach_y = kHalf * (std::abs(warp(1, 0)) + std::abs(warp(1, 1)));
-  if (!(centre.x() - reach_x >= 0 && centre.y() - reach_y >= 0 &&
-        centre.x() + reach_x + 1 < static_cast<float>(gray.width) &&
-        centre.y() + reach_y + 1 < static_cast<float>(gray.height)))
-    return false;
-  for (int j = 0; j < kSide; ++j) {
-    for (int i = 0; i < kSide; ++i) {
-      const float di = static_cast<float>(i - kHalf), dj = static_cast<float>(j - kHalf);
-      const float x = centre.x() + warp(0, 0) * di + warp(0, 1) * dj;
-      const float y = centre.y() + warp(1, 0) * di + warp(1, 1) * dj;
-      const int u = static_cast<int>(x), v = static_cast<int>(y);
-      const BilinearWeights weights(x - static_cast<float>(u), y - static_cast<float>(v));
-      out.row(j)[i] = sample_pixel(gray.row<std::uint8_t>(v) + u, gray.row<std::uint8_t>(v + 1) + u, weights);
-    }
-  }
-  return true;
-}
-
-}  // namespace detail
-
-/// Finds a patch near `start` by Gauss and Newton's steps on the gray-value difference, with the patch's own gradients
-/// (inverse compositional), brightness free. The best of all visited places is returned.
-/// Source: Baker and Matthews, "Lucas-Kanade 20 Years On", IJCV 2004, section 3.2.
-inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vector2f& start,
-                           const PatchSearch& search) noexcept {
-  PatchFit best;
-  const float determinant = patch.hxx * patch.hyy - patch.hxy * patch.hxy;
-  const float warp_px =
-      Patch::kHalf * (search.warp - Eigen::Matrix2f(Eigen::Matrix2f::Identity())).lpNorm<Eigen::Infinity>();
-  const bool shifted_only = warp_px < 0.5f;
-  constexpr float kOne = BilinearWeights::kOne;
-  // Elsewhere another content has another contrast, and between pixels there is less: neither is the exposure's.
-  constexpr float kAlike = 0.1f, kLeastChange = 0.15f, kLeastGain = 0.2f;
-  const auto squared = [](float x) { return x * x; };
-  // A step waits for each division and root in turn: what is the same for all steps is divided here.
-  const float per_pixel = 1.0f / static_cast<float>(patch.count);
-  const float to_energy = per_pixel / squared(kOne);
-  const float to_likeness = per_pixel / kOne;
-  const float to_squared_gain = 1.0f / (patch.energy + 1e-3f);
-  const float to_step = -per_pixel / (2 * kOne * determinant);
-  Vector2f offset = Vector2f::Zero();
-  PatchPixels sample;
-  float energy_there = 0;
-  for (int iteration = 0; iteration < search.iterations; ++iteration) {
-    if (!detail::sample_patch(gray, start + offset, search.warp, shifted_only, sample)) break;
-    best.inside = true;
-    if (patch.is_partial()) apply_mask(patch.mask, sample);
-    const int total = -product(patch.mask, sample);  // the sum, by the quickest of these loops
-    const float energy = to_energy * patch.centred(product(sample, sample), total, total);
-    const float likeness = to_likeness * patch.centred(product(patch.value, sample), patch.sum, total);
-    const float dissimilarity = 1.0f - likeness / std::sqrt(patch.energy * energy + 1e-3f);
-    if (dissimilarity < best.dissimilarity) {
-      best.dissimilarity = dissimilarity;
-      best.offset = offset;
-      energy_there = energy;
-    }
-    if (!(determinant > 0)) break;
-    // Σ gradient · (sample / gain − value), all without their means: neither gain nor offset of the exposure counts.
-    constexpr int kLevel = BilinearWeights::kOne;
-    const int excess = total - kLevel * patch.sum;
-    const int along_x = product(patch.slope_x, sample), along_y = product(patch.slope_y, sample);
-    float bx = patch.centred(along_x - kLevel * patch.along_x, patch.sum_x, excess);
-    float by = patch.centred(along_y - kLevel * patch.along_y, patch.sum_y, excess);
-    const float squared_gain = energy * to_squared_gain;
-    const bool is_brighter = squared_gain > squared(1 + kLeastChange);
-    const bool is_darker = squared_gain < squared(1 - kLeastChange) && squared_gain > squared(kLeastGain);
-    if (dissimilarity < kAlike && (is_brighter || is_darker)) {
-      const float without_gain = 1.0f / std::sqrt(squared_gain) - 1.0f;
-      bx += without_gain * patch.centred(along_x, patch.sum_x, total);
-      by += without_gain * patch.centred(along_y, patch.sum_y, total);
-    }
-    Vector2f step = search.warp *
-                    Vector2f(to_step * (patch.hyy * bx - patch.hxy * by), to_step * (patch.hxx * by - patch.hxy * bx));
-    step = {std::clamp(step.x(), -1.0f, 1.0f), std::clamp(step.y(), -1.0f, 1.0f)};
-    const Vector2f before = offset;
-    offset += step;
-    const float squared_length = offset.squaredNorm();
-    if (squared_length > squared(search.reach_px)) offset *= search.reach_px / std::sqrt(squared_length);
-    if ((offset - before).squaredNorm() < squared(search.precision_px)) {
-      if (best.offset == before) best.offset = offset;  // too small a step for another look
-      break;
-    }
-  }
-  if (best.inside) best.contrast = std::sqrt(std::max(energy_there * per_pixel, 0.0f));
-  return best;
 }
 
 }  // namespace stillpoint

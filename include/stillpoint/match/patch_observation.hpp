@@ -10,7 +10,7 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/past_observations.hpp"
-#include "stillpoint/match/patch.hpp"
+#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/static_place.hpp"
 
 namespace stillpoint {

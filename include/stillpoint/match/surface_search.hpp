@@ -17,7 +17,6 @@
 #include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/depth/depth_tolerance.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
-#include "stillpoint/match/patch.hpp"
 
 namespace stillpoint {
 
