@@ -74,4 +74,18 @@ std::size_t compact_host_arrays(const char* host, span<const std::uint8_t> keep,
   return kept_count(keep);
 }
 
+/// Gives the indices of features in a host's grid (columns of cells) their new values; those of dropped ones go.
+/// @param old_to_new  of `compaction_map`
+template <class Grid>
+void reindex_grid(Grid& columns, span<const int> old_to_new) {
+  for (auto& column : columns) {
+    for (auto& cell : column) {
+      std::size_t left = 0;
+      for (const auto index : cell)
+        if (old_to_new[index] >= 0) cell[left++] = static_cast<std::decay_t<decltype(index)>>(old_to_new[index]);
+      cell.resize(left);
+    }
+  }
+}
+
 }  // namespace stillpoint

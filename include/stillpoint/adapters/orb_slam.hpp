@@ -161,14 +161,7 @@ std::size_t compact_frame(span<const std::uint8_t> keep, Frame& frame, MoreArray
     compact(keep, frame.mvpMapPoints, frame.mvbOutlier);
     std::vector<int> old_to_new;
     compaction_map(keep, old_to_new);
-    for (auto& column : frame.mGrid) {
-      for (auto& cell : column) {
-        std::size_t left = 0;
-        for (const std::size_t index : cell)
-          if (old_to_new[index] >= 0) cell[left++] = static_cast<std::size_t>(old_to_new[index]);
-        cell.resize(left);
-      }
-    }
+    reindex_grid(frame.mGrid, old_to_new);
     return kept;
   } else {
     return 0;

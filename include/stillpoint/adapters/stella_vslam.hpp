@@ -84,14 +84,7 @@ std::size_t compact_observation(span<const std::uint8_t> keep, Observation& obse
         optional_host_array("stereo_x_right_", observation.stereo_x_right_),
         optional_host_array("depths_", observation.depths_));
     compaction_map(keep, old_to_new);
-    for (auto& column : observation.keypt_indices_in_cells_) {
-      for (auto& cell : column) {
-        std::size_t left = 0;
-        for (const auto index : cell)
-          if (old_to_new[index] >= 0) cell[left++] = static_cast<unsigned int>(old_to_new[index]);
-        cell.resize(left);
-      }
-    }
+    reindex_grid(observation.keypt_indices_in_cells_, old_to_new);
     return kept;
   } else {
     return 0;  // the contract has said what is missing: no second error

@@ -25,6 +25,11 @@ enum class MatchState : std::uint8_t {
   outside,    ///< its keypoint is outside the image or not finite
 };
 
+/// The state of what was found so far from the image's border, pixels.
+inline MatchState found_at(float border_distance_px, float border_px) noexcept {
+  return border_distance_px < border_px ? MatchState::near_edge : MatchState::matched;
+}
+
 /// The features as one frame sees them. Parallel arrays, one entry per feature.
 struct FrameFeatures {
   std::vector<Vector2f> pixel;        ///< in the image as it is (distorted), pixels

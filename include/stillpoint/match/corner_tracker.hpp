@@ -78,7 +78,7 @@ class CornerTracker {
       if (!found.anywhere()) continue;
       matches.reference.pixel[first + c] = found.pixel;
       const float distance = border_distance_px(reference_[0], found.pixel);
-      matches.state[first + c] = distance < kBorder_px ? MatchState::near_edge : MatchState::matched;
+      matches.state[first + c] = found_at(distance, kBorder_px);
     }
     std::swap(reference_, current_);
     reference_time_s_ = current.timestamp_s;

@@ -101,8 +101,7 @@ class LucasKanade {
       if (found_[k] == 0 || !(there >= 0.0f) || !comes_back(k)) continue;
       matches.reference.pixel[feature_[k]] = {to_[k].x, to_[k].y};
       const float here = current.gray.border_distance_px(from_[k].x, from_[k].y);
-      const bool near_edge = std::min(here, there) < options.border_px;
-      matches.state[feature_[k]] = near_edge ? MatchState::near_edge : MatchState::matched;
+      matches.state[feature_[k]] = found_at(std::min(here, there), options.border_px);
     }
   }
 

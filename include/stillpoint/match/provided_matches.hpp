@@ -22,8 +22,8 @@
 #include "stillpoint/match/older_frame_choice.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
-#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/patch_observation.hpp"
+#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/static_place.hpp"
 #include "stillpoint/match/surface_search.hpp"
@@ -73,7 +73,7 @@ class ProvidedMatches {
         matches.state[i] = MatchState::outside;
       } else if (there >= 0.0f) {
         matches.reference.pixel[i] = before;
-        matches.state[i] = std::min(here, there) < options.border_px ? MatchState::near_edge : MatchState::matched;
+        matches.state[i] = found_at(std::min(here, there), options.border_px);
       }
     }
     reference_pixels.clear();
