@@ -56,6 +56,7 @@ class ObjectHypothesis {
       const auto probability = static_cast<double>(labels[i].probability);
       const double log_odds = std::log(probability / (1.0 - probability)) + says;
       if (!(log_odds > kNeeded)) continue;
+      labels[i].log_odds = static_cast<float>(log_odds);  // what the keep-floor sorts by
       labels[i].probability = static_cast<float>(1.0 / (1.0 + std::exp(-log_odds)));
       labels[i].verdict = Verdict::dynamic;
       labels[i].keep = false;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
+#include "stillpoint/verdict/keep_floor.hpp"
 
 namespace stillpoint::object_hypothesis_test {
 namespace {
@@ -55,6 +56,7 @@ class ObjectHypothesisTest : public testing::Test {
     label.keep = !is_dynamic;
     label.reason = is_dynamic ? Reason::inconsistent : Reason::consistent;
     label.probability = probability;
+    label.log_odds = std::log(probability / (1.0f - probability));
     labels.push_back(label);
     object_of.push_back(is_dynamic ? 0 : -1);
     return i;
@@ -95,6 +97,21 @@ TEST_F(ObjectHypothesisTest, WhatGoesAsItsObjectGoesIsDropped) {
   EXPECT_EQ(labels[i].reason, Reason::object_motion);
   EXPECT_EQ(object_of[i], 0);
   EXPECT_NEAR(labels[i].probability, 0.4 * 4 / (0.4 * 4 + 0.6), 0.01) << "what its weight is made of";
+  EXPECT_NEAR(labels[i].log_odds, std::log(0.4 * 4 / 0.6), 0.05) << "what the keep-floor sorts by";
+}
+
+// Log-odds of .45: -.20, with the object's motion 1.19; of .52: .08.
+TEST_F(ObjectHypothesisTest, TheKeepFloorTakesWhatWasDynamicByLessFirst) {
+  const std::size_t raised = add_inside(step_m(), false, 0.45f), hardly = add_inside(0, true, 0.52f);
+  run();
+  ASSERT_EQ(labels[raised].reason, Reason::object_motion);
+  KeepFloor floor;
+  floor.options.fewest_features = 1;
+  floor.options.fewest_cells = 0;
+  const std::uint8_t pixel = 0;  // of the image only its size is looked at
+  EXPECT_EQ(floor.apply(matches.current.pixel, {&pixel, 640, 480, 640, PixelFormat::gray8}, labels, workspace), 1u);
+  EXPECT_EQ(labels[hardly].reason, Reason::keep_floor);
+  EXPECT_FALSE(labels[raised].keep);
 }
 
 TEST_F(ObjectHypothesisTest, WhatStandsStaysAsItIs) {
