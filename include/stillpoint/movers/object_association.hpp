@@ -102,12 +102,7 @@ class ObjectAssociation {
         if (!are_one(one, other)) continue;
         const bool keeps_other = other.is_confirmed && (!one.is_confirmed || other.members > one.members);
         if (keeps_other) std::swap(one, other);
-        for (const Vector3d& point : other.points) one.points.add(point);
-        for (std::int32_t& of : object_of) {
-          if (of == static_cast<std::int32_t>(b)) of = static_cast<std::int32_t>(a);
-          if (of > static_cast<std::int32_t>(b)) --of;
-        }
-        objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(b));
+        ObjectIdentity::absorb(objects, a, b, object_of);
         break;
       }
     }

@@ -109,10 +109,17 @@ class ObjectIdentity {
       std::swap(kept, other);
       take_identity(other, kept);
     }
+    absorb(objects, known, part, object_of);
+  }
+
+  /// Gives the features of `part` to `kept`, and its points unless they are only predicted, and removes `part`.
+  static void absorb(std::vector<TrackedObject>& objects, std::size_t kept, std::size_t part,
+                     span<std::int32_t> object_of) {
+    const TrackedObject& other = objects[part];
     if (other.is_seen)
-      for (const Vector3d& point : other.points) kept.points.add(point);
+      for (const Vector3d& point : other.points) objects[kept].points.add(point);
     for (std::int32_t& of : object_of) {
-      if (of == static_cast<std::int32_t>(part)) of = static_cast<std::int32_t>(known);
+      if (of == static_cast<std::int32_t>(part)) of = static_cast<std::int32_t>(kept);
       if (of > static_cast<std::int32_t>(part)) --of;
     }
     objects.erase(objects.begin() + static_cast<std::ptrdiff_t>(part));
