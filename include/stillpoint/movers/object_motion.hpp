@@ -33,8 +33,8 @@ struct ObjectMotion {
 /// Squared whitened distance of a pair from a motion.
 inline double squared_distance(const WhitenedPair& pair, const Pose& moved) {
   const Vector3d offset = pair.current - moved * pair.reference;
-  const double z = pair.per_z * offset.z(), x = pair.per_x * (offset.x() - pair.u * offset.z()),
-               y = pair.per_y * (offset.y() - pair.v * offset.z());
+  const Vector2d across = pair.across_ray(offset);
+  const double z = pair.per_z * offset.z(), x = pair.per_x * across.x(), y = pair.per_y * across.y();
   return x * x + y * y + z * z;
 }
 
@@ -43,10 +43,7 @@ class TranslationNormalEquations {
  public:
   void add(const WhitenedPair& pair, const Pose& moved) {
     const Vector3d offset = pair.current - moved * pair.reference;
-    Matrix3d rows;
-    rows << 0, 0, pair.per_z,                 //
-        pair.per_x, 0, -pair.per_x * pair.u,  //
-        0, pair.per_y, -pair.per_y * pair.v;
+    const Matrix3d rows = pair.whitening();
     const Vector3d residual = rows * offset;
     constexpr double kCauchy = RigidNormalEquations::kCauchy;
     const double weight = 1.0 / (1.0 + residual.squaredNorm() / (kCauchy * kCauchy));
@@ -113,15 +110,15 @@ class ObjectMotionEstimator {
   /// Standard deviation of the pixels over what the pairs say, from the offsets that a motion leaves: at least 0.5, at
   /// most 1. Limbs that swing leave more than the noise. So the median counts three times.
   static double pixel_noise(span<const WhitenedPair> pairs, const Pose& moved, Workspace& workspace) {
-    constexpr double kLeast = 0.5, kPerMedian = 3.0 * 1.4826;  // of a normal distribution
+    constexpr double kLeast = 0.5, kPerMedian = 3.0 * kMadToSigma;
     if (pairs.empty()) return 1.0;
     const Workspace::Scope scope(workspace);
     const span<double> offsets = workspace.take<double>(2 * pairs.size());
     std::size_t count = 0;
     for (const WhitenedPair& pair : pairs) {
-      const Vector3d offset = pair.current - moved * pair.reference;
-      offsets[count++] = std::abs(pair.per_x * (offset.x() - pair.u * offset.z()));
-      offsets[count++] = std::abs(pair.per_y * (offset.y() - pair.v * offset.z()));
+      const Vector2d across = pair.across_ray(pair.current - moved * pair.reference);
+      offsets[count++] = std::abs(pair.per_x * across.x());
+      offsets[count++] = std::abs(pair.per_y * across.y());
     }
     return std::clamp(kPerMedian * median_in_place(offsets), kLeast, 1.0);
   }
@@ -146,9 +143,9 @@ class ObjectMotionEstimator {
       if (!(squared_distance(pair, moved) <= kOutlier_sq)) continue;
       Part& part = parts[cell(pair.current.x(), low.x(), high.x(), kColumns) +
                          kColumns * cell(pair.current.y(), low.y(), high.y(), kRows)];
-      const Vector3d offset = pair.current - moved * pair.reference;
-      part.x += offset.x() - pair.u * offset.z();
-      part.y += offset.y() - pair.v * offset.z();
+      const Vector2d across = pair.across_ray(pair.current - moved * pair.reference);
+      part.x += across.x();
+      part.y += across.y();
       part.noise += 1.0 / (pair.per_x * pair.per_x) + 1.0 / (pair.per_y * pair.per_y);
       part.count += 1.0;
     }

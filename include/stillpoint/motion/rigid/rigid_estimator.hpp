@@ -42,6 +42,20 @@ struct WhitenedPair {
     per_x = camera.fx() / (q.z() * sigma_px);
     per_y = camera.fy() / (q.z() * sigma_px);
   }
+
+  /// What an offset is across the ray, metres.
+  Vector2d across_ray(const Vector3d& offset) const {
+    return {offset.x() - u * offset.z(), offset.y() - v * offset.z()};
+  }
+
+  /// The matrix that makes an offset white: along the ray, then across it.
+  Matrix3d whitening() const {
+    Matrix3d rows;
+    rows << 0, 0, per_z,       //
+        per_x, 0, -per_x * u,  //
+        0, per_y, -per_y * v;
+    return rows;
+  }
 };
 
 /// Gauss-Newton on whitened offsets, for a small rotation ω and translation v after the pose:
@@ -56,10 +70,7 @@ class RigidNormalEquations {
   /// Adds a pair with Cauchy's weight 1 / (1 + r² / c²); an infinite c weighs all alike.
   void add(const WhitenedPair& pair, double cauchy = kCauchy) {
     const Vector3d moved = pose_ * pair.reference, offset = pair.current - moved;
-    Eigen::Matrix<double, 3, 3> rows;
-    rows << 0, 0, pair.per_z,                 //
-        pair.per_x, 0, -pair.per_x * pair.u,  //
-        0, pair.per_y, -pair.per_y * pair.v;
+    const Matrix3d rows = pair.whitening();
     const Vector3d residual = rows * offset;
     const double weight = 1.0 / (1.0 + residual.squaredNorm() / (cauchy * cauchy));
     Eigen::Matrix<double, 3, 6> jacobian;  // of the moved point, whitened: ∂(ω × x + v)
