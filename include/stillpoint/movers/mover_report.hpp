@@ -11,7 +11,6 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/mover.hpp"
-#include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/span.hpp"

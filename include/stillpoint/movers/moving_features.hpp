@@ -4,6 +4,7 @@
 
 // The features of a frame as objects see them: how fast each went, and which object it is of.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +15,6 @@
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
-#include "stillpoint/core/workspace.hpp"
 #include "stillpoint/motion/rigid/rigid_estimator.hpp"
 
 namespace stillpoint {

@@ -147,7 +147,7 @@ class ObjectUpdate {
   /// Do its parts move against each other when the turn is taken out?
   static void observe_bending(TrackedObject& object, span<const WhitenedPair> pairs, const Pose& shifted,
                               const Pose& turned, double elapsed_s) {
-    constexpr double kMemory_s = 1.0;  // a step
+    constexpr double kMemory_s = 1.0;  // a stride
     const std::optional<double> left = ObjectMotionEstimator::bending_sq(pairs, turned, elapsed_s),
                                 turn = ObjectMotionEstimator::bending_sq(pairs, shifted, elapsed_s);
     const double share = exponential_share(elapsed_s, kMemory_s);

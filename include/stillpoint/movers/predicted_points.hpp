@@ -4,8 +4,6 @@
 
 // Which feature belongs to which known object?   That beside whose predicted points it lies.
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -13,7 +11,6 @@
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/geometry.hpp"
-#include "stillpoint/core/matches.hpp"
 #include "stillpoint/core/pixel_grid.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/core/workspace.hpp"

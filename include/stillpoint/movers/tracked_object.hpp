@@ -51,7 +51,7 @@ struct TrackedObject {
   ConstantVelocity linear{1.0}, angular{1.0};
   Appearance appearance;
   Vector3d mean_velocity = Vector3d::Zero();  ///< of the last third of a second: limbs swing about it, m/s
-  Vector3d long_velocity = Vector3d::Zero();  ///< of the last second
+  Vector3d long_velocity = Vector3d::Zero();  ///< of the last 0.6 s
   Vector3d mean_turn = Vector3d::Zero();      ///< of the last third of a second, rad/s
   Matrix3d mean_turn_covariance = Matrix3d::Identity();
   Vector3d path = Vector3d::Zero();  ///< the way gone since it was seen first, metres
