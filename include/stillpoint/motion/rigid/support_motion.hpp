@@ -7,10 +7,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -241,7 +239,11 @@ class SupportMotion {
                    SupportProblem<Camera>& problem, Workspace& workspace) const {
     const double to_beat = problem.point_support(past.reference_from_current);
     const bool may_be_finer = kFinerNoise * pixel_sigma > kLeastPixelSigma;
-    const Hypothesis sample = best_sample(to_beat, may_be_finer ? 0.0 : to_beat, matches, problem, workspace);
+    // What explains more than the past does has at least its share of inliers.
+    const double share = to_beat / problem.total_weight();
+    const std::size_t trials = required_trials(share, 3, kConfidence, options.max_trials);
+    Random random(options.seed);
+    const Hypothesis sample = best_sample(trials, may_be_finer ? 0.0 : to_beat, matches, problem, random, workspace);
     if (!(sample.support > 0)) return {past, {}, pixel_sigma};
     const Hypothesis sampled = problem.refined(sample.reference_from_current, kFarCutoffs);
     const Pose& by_sample = sampled.reference_from_current;
@@ -252,32 +254,6 @@ class SupportMotion {
     problem.set_pixel_sigma(sampled_px);
     return {problem.refined(past.reference_from_current, cutoffs), problem.refined(by_sample, kNearCutoffs),
             sampled_px};
-  }
-
-  /// The best motion of three points, not refined; no support where none explains more points than `to_beat`.
-  template <class Camera>
-  Hypothesis best_sample(double past_support, double to_beat, const Matches& matches,
-                         const SupportProblem<Camera>& problem, Workspace& workspace) const {
-    const Workspace::Scope scope(workspace);
-    const span<const PointConstraint> points = problem.points();
-    const span<std::size_t> metric = workspace.take<std::size_t>(points.size());
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < points.size(); ++k)
-      if (matches.metric(points[k].feature)) metric[count++] = k;
-    Hypothesis best;
-    if (count < 3) return best;
-    // What explains more than the past does has at least its share of inliers.
-    const double share = past_support / problem.total_weight();
-    Random random(options.seed);
-    for (std::size_t left = required_trials(share, 3, kConfidence, options.max_trials); left > 0; --left) {
-      const std::optional<Pose> pose = motion_of_sample(matches, points, metric.first(count), random);
-      if (!pose) continue;
-      const double found = problem.point_support(*pose, to_beat);
-      if (!(found > to_beat)) continue;
-      to_beat = found;
-      best = {*pose, Matrix6d::Zero(), found};
-    }
-    return best;
   }
 
   static void set_covariance(const Matrix6d& information, Motion& motion) {
