@@ -78,13 +78,10 @@ class SupportMotion {
     if (!is_confirmed) past = problem.refined(past.reference_from_current, kAgainCutoffs);
     const span<const double> cutoffs = is_confirmed ? span<const double>(kNearCutoffs) : kAgainCutoffs;
     const Rivals rivals = rivals_of(past, noise.pixel_sigma, cutoffs, matches, problem, workspace);
-    const Pose &by_past = rivals.past.reference_from_current, &by_sample = rivals.sampled.reference_from_current;
     const bool explains_more = rivals.sampled.support > rivals.past.support;
-    // A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
+    const double preference = is_confirmed ? kToldPreference : past_preference;
     const bool is_inverted =
-        explains_more && prior.current_from_reference && problem.distance_px(by_sample, by_past) > kSameMotion_px &&
-        problem.exclusive_support(by_past, by_sample) >
-            (is_confirmed ? kToldPreference : past_preference) * problem.exclusive_support(by_sample, by_past);
+        explains_more && prior.current_from_reference && are_two_motions(rivals, preference, problem, workspace);
     const bool is_sampled = explains_more && !is_inverted;
     motion.pixel_sigma = is_sampled ? rivals.pixel_sigma : noise.pixel_sigma;
     problem.set_pixel_sigma(motion.pixel_sigma);
@@ -254,6 +251,17 @@ class SupportMotion {
     problem.set_pixel_sigma(sampled_px);
     return {problem.refined(past.reference_from_current, cutoffs), problem.refined(by_sample, kNearCutoffs),
             sampled_px};
+  }
+
+  /// A wrong local minimum explains nothing that the right motion does not explain as well; a second motion does.
+  /// @param preference  what the past alone explains is more than this share of what the sample alone explains
+  template <class Camera>
+  static bool are_two_motions(const Rivals& rivals, double preference, const SupportProblem<Camera>& problem,
+                              Workspace& workspace) {
+    const Pose &by_past = rivals.past.reference_from_current, &by_sample = rivals.sampled.reference_from_current;
+    if (!(problem.distance_px(by_sample, by_past) > kSameMotion_px)) return false;
+    const ExclusiveSupport exclusive = problem.exclusive_support(by_past, by_sample, workspace);
+    return exclusive.one > preference * exclusive.other;
   }
 
   static void set_covariance(const Matrix6d& information, Motion& motion) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <utility>
 
 #include "stillpoint/core/geometry.hpp"
@@ -28,6 +29,11 @@ struct MotionHypothesis {
   Pose reference_from_current = Pose::Identity();
   Matrix6d information = Matrix6d::Zero();
   double support = 0;
+};
+
+/// The weight of the points that only one of two poses explains.
+struct ExclusiveSupport {
+  double one = 0, other = 0;
 };
 
 /// Everything that is known of one motion: points and planes in one or more older frames, whose poses to each other
@@ -85,7 +91,7 @@ class SupportProblem {
     const span<double> squared_px = workspace.take<double>(points_.size());
     const span<double> squared_depth = workspace.take<double>(points_.size());
     std::size_t count = 0;
-    spread(pose);
+    set_poses(pose);
     for (const PointConstraint& point : points_) {
       if (!(point.weight > kLikelyStatic) || !point.has_depth()) continue;
       const PointResidual<double> residual(poses_[point.frame], camera_, point);
@@ -104,10 +110,6 @@ class SupportProblem {
     return noise;
   }
 
-  double squared(const PointConstraint& point, const Pose& pose) const {
-    return squared_residual(point, point.frame == 0 ? pose : composed(links_[point.frame], pose), camera_);
-  }
-
   /// The support of a pose that all points fit exactly.
   double total_weight() const {
     double sum = 0;
@@ -118,7 +120,78 @@ class SupportProblem {
   /// Σ weight · (1 − squared residual / limit) over the inliers among the points.
   /// @param to_beat  counting ends where this cannot be reached any more
   double point_support(const Pose& pose, double to_beat = 0.0) const {
-    spread(pose);
+    set_poses(pose);
+    return support_of_points(to_beat);
+  }
+
+  /// The same over points and planes.
+  double support(const Pose& pose) const {
+    set_poses(pose);
+    double sum = support_of_points(0.0);
+    for (const PlaneConstraint& plane : planes_) {
+      const double error = plane.slope.dot(poses_[plane.frame] * plane.point - plane.target);
+      sum += plane.weight * share(error * error);
+    }
+    return sum;
+  }
+
+  /// Each with the weight of the points that it explains and the other does not.
+  ExclusiveSupport exclusive_support(const Pose& one, const Pose& other, Workspace& workspace) const {
+    const Workspace::Scope scope(workspace);
+    const span<std::uint8_t> by_one = workspace.take<std::uint8_t>(points_.size());
+    set_poses(one);
+    for (std::size_t k = 0; k < points_.size(); ++k) by_one[k] = is_inlier(points_[k]) ? 1 : 0;
+    set_poses(other);
+    ExclusiveSupport exclusive;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+      const bool is_of_one = by_one[k] != 0;
+      if (is_of_one != is_inlier(points_[k])) (is_of_one ? exclusive.one : exclusive.other) += points_[k].weight;
+    }
+    return exclusive;
+  }
+
+  /// Squared residuals that a loss of support stands for.
+  double squared_residuals_of(double support_loss) const noexcept { return support_loss * limit_; }
+
+  /// Moves a pose to the best explanation near by.
+  /// @return the information matrix, zero when there is no step
+  Matrix6d refine(Pose& pose, span<const double> cutoffs) const {
+    set_poses(pose);
+    const Matrix6d information = refine_reprojection(points_, planes_, poses_, cutoffs, camera_);
+    pose = poses_[0];
+    return information;
+  }
+
+  /// The best explanation near a pose.
+  MotionHypothesis refined(const Pose& pose, span<const double> cutoffs) const {
+    MotionHypothesis hypothesis;
+    hypothesis.reference_from_current = pose;
+    hypothesis.information = refine(hypothesis.reference_from_current, cutoffs);
+    hypothesis.support = support(hypothesis.reference_from_current);
+    return hypothesis;
+  }
+
+  int inliers(const Pose& pose) const {
+    set_poses(pose);
+    return static_cast<int>(std::count_if(points_.begin(), points_.end(),
+                                          [this](const PointConstraint& point) { return is_inlier(point); }));
+  }
+
+  /// How far apart two poses put the points, on average; one that is wild counts ten pixels.
+  double distance_px(const Pose& a, const Pose& b) const {
+    constexpr double kFar_px = 10.0;
+    double sum = 0;
+    for (const PointConstraint& point : points_) {
+      const Vector3d pa = a * point.point, pb = b * point.point;
+      const bool both = pa.z() > PointResidual<double>::kNearest_m && pb.z() > PointResidual<double>::kNearest_m;
+      sum += both ? std::min((camera_.project(pa) - camera_.project(pb)).norm(), kFar_px) : kFar_px;
+    }
+    return sum / static_cast<double>(points_.size());
+  }
+
+ private:
+  /// At the poses that are set, as `is_inlier`.
+  double support_of_points(double to_beat) const {
     double left = total_weight(), sum = 0;
     for (std::size_t k = 0; k < points_.size() && !(sum + left < to_beat);) {
       const PointConstraint& point = points_[k];
@@ -137,67 +210,14 @@ class SupportProblem {
     return sum + left < to_beat ? 0.0 : sum;
   }
 
-  /// The same over points and planes.
-  double support(const Pose& pose) const {
-    double sum = point_support(pose);
-    for (const PlaneConstraint& plane : planes_) {
-      const double error = plane.slope.dot(poses_[plane.frame] * plane.point - plane.target);
-      sum += plane.weight * share(error * error);
-    }
-    return sum;
+  bool is_inlier(const PointConstraint& point) const {
+    return squared_residual(point, poses_[point.frame], camera_) < limit_;
   }
 
-  /// The weight of the points that one pose explains and another does not.
-  double exclusive_support(const Pose& pose, const Pose& other) const {
-    double sum = 0;
-    for (const PointConstraint& point : points_)
-      if (squared(point, pose) < limit_ && !(squared(point, other) < limit_)) sum += point.weight;
-    return sum;
-  }
-
-  /// Squared residuals that a loss of support stands for.
-  double squared_residuals_of(double support_loss) const noexcept { return support_loss * limit_; }
-
-  /// Moves a pose to the best explanation near by.
-  /// @return the information matrix, zero when there is no step
-  Matrix6d refine(Pose& pose, span<const double> cutoffs) const {
-    spread(pose);
-    const Matrix6d information = refine_reprojection(points_, planes_, poses_, cutoffs, camera_);
-    pose = poses_[0];
-    return information;
-  }
-
-  /// The best explanation near a pose.
-  MotionHypothesis refined(const Pose& pose, span<const double> cutoffs) const {
-    MotionHypothesis hypothesis;
-    hypothesis.reference_from_current = pose;
-    hypothesis.information = refine(hypothesis.reference_from_current, cutoffs);
-    hypothesis.support = support(hypothesis.reference_from_current);
-    return hypothesis;
-  }
-
-  int inliers(const Pose& pose) const {
-    return static_cast<int>(std::count_if(points_.begin(), points_.end(),
-                                          [&](const PointConstraint& point) { return squared(point, pose) < limit_; }));
-  }
-
-  /// How far apart two poses put the points, on average; one that is wild counts ten pixels.
-  double distance_px(const Pose& a, const Pose& b) const {
-    constexpr double kFar_px = 10.0;
-    double sum = 0;
-    for (const PointConstraint& point : points_) {
-      const Vector3d pa = a * point.point, pb = b * point.point;
-      const bool both = pa.z() > PointResidual<double>::kNearest_m && pb.z() > PointResidual<double>::kNearest_m;
-      sum += both ? std::min((camera_.project(pa) - camera_.project(pb)).norm(), kFar_px) : kFar_px;
-    }
-    return sum / static_cast<double>(points_.size());
-  }
-
- private:
   double share(double squared_residual) const noexcept { return std::max(0.0, 1.0 - squared_residual / limit_); }
 
-  /// From the pose to the first older frame to those of all.
-  void spread(const Pose& pose) const {
+  /// Sets the poses to all older frames, from that to the first. They are scratch memory: whoever reads them sets them.
+  void set_poses(const Pose& pose) const {
     poses_[0] = pose;
     for (std::size_t f = 1; f < poses_.size(); ++f) poses_[f] = orthonormalized(composed(links_[f], pose));
   }
