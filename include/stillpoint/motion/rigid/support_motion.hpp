@@ -9,6 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "stillpoint/core/capabilities.hpp"
 #include "stillpoint/core/geometry.hpp"
@@ -70,38 +71,23 @@ class SupportMotion {
     const span<const OlderFrame> frames = matches.past_observations.frames();
     auto problem =
         problem_of(points, frames.first(std::min<std::size_t>(frames.size(), 1)), observations, camera, workspace);
-    const Pose expected = prior.current_from_reference ? inverted(*prior.current_from_reference) : Pose::Identity();
-    Hypothesis past = problem.refined(expected, kFarCutoffs);
-    const SupportNoise noise = problem.calibrate(past.reference_from_current, least_noise(), most_noise(), workspace);
-    motion.depth_noise = noise.depth_scale;
-    const bool is_confirmed = prior.is_told && confirm(expected, problem, past);
-    if (!is_confirmed) past = problem.refined(past.reference_from_current, kAgainCutoffs);
-    const span<const double> cutoffs = is_confirmed ? span<const double>(kNearCutoffs) : kAgainCutoffs;
-    const Rivals rivals = rivals_of(past, noise.pixel_sigma, cutoffs, matches, problem, workspace);
-    const bool explains_more = rivals.sampled.support > rivals.past.support;
-    const double preference = is_confirmed ? kToldPreference : past_preference;
-    const bool is_inverted =
-        explains_more && prior.current_from_reference && are_two_motions(rivals, preference, problem, workspace);
-    const bool is_sampled = explains_more && !is_inverted;
-    motion.pixel_sigma = is_sampled ? rivals.pixel_sigma : noise.pixel_sigma;
+    const Selection selection = select(prior, matches, problem, workspace);
+    motion.pixel_sigma = selection.noise.pixel_sigma;
+    motion.depth_noise = selection.noise.depth_scale;
     problem.set_pixel_sigma(motion.pixel_sigma);
-    const Hypothesis& selected = is_sampled ? rivals.sampled : past;
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
                         has_no_slow_motion(points, matches, camera, workspace);
-    const Hypothesis chosen = motion.stationary ? at_rest(problem) : with_all_points(selected, cutoffs, problem);
+    const Hypothesis chosen =
+        motion.stationary ? at_rest(problem) : with_all_points(selection.hypothesis, selection.cutoffs, problem);
 
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
     const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
     if (!(explained > kLeastSupport) || motion.status == Status::no_depth) return motion;
     motion.status = Status::ok;
-    motion.doubtful = noise.depth_scale >= kMostDepthNoise && explained < kSureSupport;
-    if (is_inverted) motion.warnings = Warning::consensus_inverted;
+    motion.doubtful = motion.depth_noise >= kMostDepthNoise && explained < kSureSupport;
+    if (selection.is_inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
-    motion.current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
-    Matrix6d information = chosen.information;
-    if (!motion.stationary && inertia.applies(prior))
-      motion.current_from_reference = inertia.fuse(motion.current_from_reference, information, prior);
-    set_covariance(information, motion);
+    set_pose(orthonormalized(inverted(chosen.reference_from_current)), chosen.information, prior, motion);
     return motion;
   }
 
@@ -125,14 +111,10 @@ class SupportMotion {
     if (weighted.information.isZero()) return;
     weighted.support = problem.support(weighted.reference_from_current);
     const Hypothesis chosen = with_all_points(weighted, kNearCutoffs, problem);
-    Matrix6d information = chosen.information;
     const Pose step = composed(inverted(chosen.reference_from_current), frames[0].reference_from_current);
-    Pose refined = orthonormalized(composed(step, motion.current_from_reference));
-    if (inertia.applies(prior)) refined = inertia.fuse(refined, information, prior);
-    const Pose back =
-        composed(motion.current_from_reference, inverted(refined));  // the old current camera from the new one
-    motion.current_from_reference = refined;
-    set_covariance(information, motion);
+    const Pose estimated = motion.current_from_reference;
+    set_pose(orthonormalized(composed(step, estimated)), chosen.information, prior, motion);
+    const Pose back = composed(estimated, inverted(motion.current_from_reference));  // old current camera from the new
     for (OlderFrame& frame : frames)
       frame.reference_from_current = orthonormalized(composed(frame.reference_from_current, back));
   }
@@ -157,13 +139,39 @@ class SupportMotion {
 
   using Hypothesis = MotionHypothesis;
 
-  /// Is there a consensus at a motion that the host tells?   It is `found` then.
+  /// The hypothesis that wins.
+  struct Selection {
+    Hypothesis hypothesis;
+    span<const double> cutoffs;  ///< with which it is refined further
+    SupportNoise noise;
+    bool is_inverted;  ///< the past wins although a sample explains more
+  };
+
+  /// Lets the motion expected from the past compete with the best sample, and measures the noise.
   template <class Camera>
-  static bool confirm(const Pose& told, const SupportProblem<Camera>& problem, Hypothesis& found) {
+  Selection select(const MotionPrior& prior, const Matches& matches, SupportProblem<Camera>& problem,
+                   Workspace& workspace) const {
+    const Pose expected = prior.current_from_reference ? inverted(*prior.current_from_reference) : Pose::Identity();
+    Hypothesis past = problem.refined(expected, kFarCutoffs);
+    const SupportNoise noise = problem.calibrate(past.reference_from_current, least_noise(), most_noise(), workspace);
+    const std::optional<Hypothesis> told = prior.is_told ? consensus_at(expected, problem) : std::nullopt;
+    past = told ? *told : problem.refined(past.reference_from_current, kAgainCutoffs);
+    const span<const double> cutoffs = told ? span<const double>(kNearCutoffs) : kAgainCutoffs;
+    const double preference = told ? kToldPreference : past_preference;
+    const Rivals rivals = rivals_of(past, noise.pixel_sigma, cutoffs, matches, problem, workspace);
+    const bool explains_more = rivals.sampled.support > rivals.past.support;
+    const bool is_inverted =
+        explains_more && prior.current_from_reference && are_two_motions(rivals, preference, problem, workspace);
+    if (!explains_more || is_inverted) return {past, cutoffs, noise, is_inverted};
+    return {rivals.sampled, cutoffs, {rivals.pixel_sigma, noise.depth_scale}, false};
+  }
+
+  /// The consensus at a motion that the host tells, if there is one.
+  template <class Camera>
+  static std::optional<Hypothesis> consensus_at(const Pose& told, const SupportProblem<Camera>& problem) {
     const Hypothesis near = problem.refined(told, kNearCutoffs);
-    const bool is_here = problem.distance_px(near.reference_from_current, told) < kSameAsTold_px;
-    if (is_here) found = near;
-    return is_here;
+    if (!(problem.distance_px(near.reference_from_current, told) < kSameAsTold_px)) return std::nullopt;
+    return near;
   }
 
   /// Points, and the surfaces that were found in these frames, if there are any.
@@ -264,8 +272,13 @@ class SupportMotion {
     return exclusive.one > preference * exclusive.other;
   }
 
-  static void set_covariance(const Matrix6d& information, Motion& motion) {
+  /// Writes a pose that was found and its covariance, with what the camera's velocity knows.
+  void set_pose(const Pose& current_from_reference, Matrix6d information, const MotionPrior& prior,
+                Motion& motion) const {
     constexpr double kHold = 1e-6;  // what nothing is known of gets kilometres
+    motion.current_from_reference = !motion.stationary && inertia.applies(prior)
+                                        ? inertia.fuse(current_from_reference, information, prior)
+                                        : current_from_reference;
     motion.correlation = Inertia::kCorrelated;
     motion.covariance = Inertia::kCorrelated * Cholesky<6>(held(information, kHold)).inverse();
   }
