@@ -48,17 +48,18 @@ class SampsonScore {
     distances_.clear();
     for (std::size_t i = 0; i < matches.size(); ++i)
       if (matches.matched(i) && observations.remembered.static_prior[i] >= options.least_static_prior)
-        distances_.push_back(geometry.distance_px(matches, i));
+        distances_.push_back(geometry.pair(matches, i).distance_px());
     if (distances_.size() < kFewestMatches) return;
     const double measured_px = kMadToSigma * median_in_place(span<double>(distances_));
     if (!(measured_px <= options.most_pixel_sigma)) return;
     const double sigma_px = std::max(measured_px, options.least_pixel_sigma);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (!matches.matched(i)) continue;
-      double distance_px = geometry.distance_px(matches, i);
+      const auto pair = geometry.pair(matches, i);
+      double distance_px = pair.distance_px();
       if (!geometry.has_lines()) distance_px = std::max(distance_px - options.turned_parallax_px, 0.0);
-      const double variance_px = sigma_px * sigma_px + geometry.pose_variance_px(matches, i);
-      const double behind = geometry.sigmas_behind(matches, i, std::sqrt(variance_px));
+      const double variance_px = sigma_px * sigma_px + pair.pose_variance_px();
+      const double behind = pair.sigmas_behind(std::sqrt(variance_px));
       const double squared = distance_px * distance_px / variance_px + behind * behind;
       if (!std::isfinite(squared)) continue;  // at the epipole there is no line
       scores[i].value = static_cast<float>(std::min(0.5 * squared, options.most_evidence) - options.expected);
@@ -85,47 +86,61 @@ class SampsonScore {
 
     bool has_lines() const noexcept { return has_lines_; }
 
-    /// From the epipolar line (Sampson, 1982), or from where the rotation takes the point. Pixels.
-    double distance_px(const Matches& matches, std::size_t i) const {
-      const Vector3d turned = rotation_ * ray(matches.reference.undistorted[i]);
-      const Vector3d seen = ray(matches.current.undistorted[i]);
-      if (!has_lines_)
-        return turned.z() > 0 ? focal_px_ * (turned.head<2>() / turned.z() - seen.head<2>()).norm() : kFar_px;
-      const Vector3d line = direction_.cross(turned);
-      const Vector3d reference_line = rotation_.transpose() * seen.cross(direction_);
-      const double slope_sq = line.head<2>().squaredNorm() + reference_line.head<2>().squaredNorm();
-      return focal_px_ * std::abs(seen.dot(line)) / std::sqrt(slope_sq);
-    }
+    /// A match as rays (z = 1), the reference's turned into the current camera, with the epipolar lines of both.
+    class EpipolarPair {
+     public:
+      EpipolarPair(const Geometry& geometry, const Vector3d& reference_ray, const Vector3d& current_ray)
+          : geometry_(geometry),
+            turned_(geometry.rotation_ * reference_ray),
+            seen_(current_ray),
+            across_(seen_.cross(geometry.direction_)),
+            line_(geometry.direction_.cross(turned_)) {
+        const Vector3d reference_line = geometry.rotation_.transpose() * across_;
+        slope_sq_ = line_.head<2>().squaredNorm() + reference_line.head<2>().squaredNorm();
+      }
 
-    /// What the motion's own uncertainty moves that distance, squared pixels. The derivative of c · (t × R p) by a
-    /// small rotation and translation after the motion is ((t × R p) × c, R p × c).
-    double pose_variance_px(const Matches& matches, std::size_t i) const {
-      if (!has_lines_) return focal_px_ * focal_px_ * covariance_.topLeftCorner<3, 3>().trace() / 3.0;
-      const Vector3d turned = rotation_ * ray(matches.reference.undistorted[i]);
-      const Vector3d seen = ray(matches.current.undistorted[i]);
-      const Vector3d line = direction_.cross(turned);
-      const Vector3d reference_line = rotation_.transpose() * seen.cross(direction_);
-      Vector6d derivative;
-      derivative << line.cross(seen), turned.cross(seen);
-      const double slope_sq = line.head<2>().squaredNorm() + reference_line.head<2>().squaredNorm();
-      return focal_px_ * focal_px_ * derivative.dot(covariance_ * derivative) / slope_sq;
-    }
+      /// From the epipolar line (Sampson, 1982), or from where the rotation takes the point. Pixels.
+      double distance_px() const {
+        const double focal_px = geometry_.focal_px_;
+        if (!geometry_.has_lines_)
+          return turned_.z() > 0 ? focal_px * (turned_.head<2>() / turned_.z() - seen_.head<2>()).norm() : kFar_px;
+        return focal_px * std::abs(seen_.dot(line_)) / std::sqrt(slope_sq_);
+      }
 
-    /// How many standard deviations its inverse depth is below zero; 0 for a point before the camera.
-    double sigmas_behind(const Matches& matches, std::size_t i, double sigma_px) const {
-      if (!has_lines_) return 0.0;
-      const Vector3d turned = rotation_ * ray(matches.reference.undistorted[i]);
-      const Vector3d seen = ray(matches.current.undistorted[i]);
-      const Vector3d across = seen.cross(direction_);  // seen × (turned + ρ t) = 0
-      const double inverse_depth = -seen.cross(turned).dot(across) / across.squaredNorm();
-      const double sigma = std::sqrt(2.0) * sigma_px / focal_px_ / across.norm();
-      return std::max(-inverse_depth / sigma, 0.0);
+      /// What the motion's own uncertainty moves that distance, squared pixels. The derivative of c · (t × R p) by a
+      /// small rotation and translation after the motion is ((t × R p) × c, R p × c).
+      double pose_variance_px() const {
+        const double focal_px = geometry_.focal_px_;
+        const Matrix6d& covariance = geometry_.covariance_;
+        if (!geometry_.has_lines_) return focal_px * focal_px * covariance.topLeftCorner<3, 3>().trace() / 3.0;
+        Vector6d derivative;
+        derivative << line_.cross(seen_), turned_.cross(seen_);
+        return focal_px * focal_px * derivative.dot(covariance * derivative) / slope_sq_;
+      }
+
+      /// How many standard deviations its inverse depth is below zero; 0 for a point before the camera.
+      double sigmas_behind(double sigma_px) const {
+        if (!geometry_.has_lines_) return 0.0;
+        // seen × (turned + ρ t) = 0
+        const double inverse_depth = -seen_.cross(turned_).dot(across_) / across_.squaredNorm();
+        const double sigma = std::sqrt(2.0) * sigma_px / geometry_.focal_px_ / across_.norm();
+        return std::max(-inverse_depth / sigma, 0.0);
+      }
+
+     private:
+      static constexpr double kFar_px = 1e3;
+
+      const Geometry& geometry_;
+      Vector3d turned_, seen_, across_, line_;  // across: seen × t
+      double slope_sq_;                         // of the error seen · line, by both rays
+    };
+
+    EpipolarPair pair(const Matches& matches, std::size_t i) const {
+      return {*this, camera_.back_project(matches.reference.undistorted[i], 1.0),
+              camera_.back_project(matches.current.undistorted[i], 1.0)};
     }
 
    private:
-    static constexpr double kFar_px = 1e3;
-    Vector3d ray(const Vector2d& undistorted) const { return camera_.back_project(undistorted, 1.0); }
-
     const Camera& camera_;
     double focal_px_;
     Matrix3d rotation_;
