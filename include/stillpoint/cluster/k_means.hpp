@@ -147,6 +147,30 @@ class SquaredDistanceDraw {
   span<double> block_sum_;
 };
 
+/// Each cluster without a member takes the point that is farthest from its own centre, of clusters that keep another.
+/// @param sum  of the members' coordinates, per cluster
+/// @return     was there any?
+inline bool refill_empty_clusters(const PointArrays& points, const NearestCentre& nearest, KMeansResult& result,
+                                  span<Vector3d> sum) {
+  bool any = false;
+  for (std::size_t c = 0; c < sum.size(); ++c) {
+    if (result.member_count[c] > 0) continue;
+    std::size_t farthest = points.size;
+    for (std::size_t i = 0; i < points.size; ++i)
+      if (result.member_count[static_cast<std::size_t>(result.cluster[i])] > 1 &&
+          (farthest == points.size || nearest.squared(i) > nearest.squared(farthest)))
+        farthest = i;
+    const auto old = static_cast<std::size_t>(result.cluster[farthest]);
+    sum[old] -= Vector3d(points[farthest].cast<double>());
+    --result.member_count[old];
+    sum[c] = points[farthest].cast<double>();
+    result.member_count[c] = 1;
+    result.cluster[farthest] = static_cast<std::int32_t>(c);
+    any = true;
+  }
+  return any;
+}
+
 }  // namespace detail
 
 /// k-means++: each further centre is a point drawn with probability proportional to its squared distance to the centres
@@ -199,21 +223,7 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
       ++result.member_count[c];
       left += static_cast<double>(nearest.squared(i));
     }
-    for (std::size_t c = 0; c < k; ++c) {
-      if (result.member_count[c] > 0) continue;
-      std::size_t farthest = points.size;
-      for (std::size_t i = 0; i < points.size; ++i)
-        if (result.member_count[static_cast<std::size_t>(result.cluster[i])] > 1 &&
-            (farthest == points.size || nearest.squared(i) > nearest.squared(farthest)))
-          farthest = i;
-      const auto old = static_cast<std::size_t>(result.cluster[farthest]);
-      sum[old] -= Vector3d(points[farthest].cast<double>());
-      --result.member_count[old];
-      sum[c] = points[farthest].cast<double>();
-      result.member_count[c] = 1;
-      result.cluster[farthest] = static_cast<std::int32_t>(c);
-      changed = true;
-    }
+    if (detail::refill_empty_clusters(points, nearest, result, sum)) changed = true;
     for (std::size_t c = 0; c < k; ++c)
       centres[c] = (sum[c] / static_cast<double>(result.member_count[c])).cast<float>();
     improves = changed && left > 0;  // with fewer different points than centres, empty clusters change for ever

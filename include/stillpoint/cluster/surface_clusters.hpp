@@ -162,17 +162,7 @@ class SurfaceClusters {
     for (std::size_t i = 0; i < matches.size(); ++i)
       if (surface_depth_m(matches, i) > 0) member[count++] = static_cast<std::uint32_t>(i);
     if (count == 0) return;
-    PointArrays points(count, workspace);
-    const span<double> whitened = workspace.take<double>(count);
-    whiten(matches, member.first(count), whitened, workspace);
-    // Regions share no cluster.
-    const double apart = std::max(1000.0, 2.0 * *std::max_element(whitened.begin(), whitened.end()));
-    for (std::size_t j = 0; j < count; ++j) {
-      const std::size_t i = member[j];
-      const Vector2d lateral =
-          Vector2d(matches.current.pixel[i].cast<double>()) / (kExtent_px * static_cast<double>(matches.pixel_scale));
-      points.set(j, {lateral.x(), lateral.y(), whitened[j] + apart * (regions.of_feature[i].dynamic_region + 1)});
-    }
+    const PointArrays points = coordinates(matches, member.first(count), regions, workspace);
     const std::size_t wanted = std::max(fewest_clusters, count / options.features_per_cluster);
     Random random(kSeed);
     const KMeansResult clusters =
@@ -189,6 +179,24 @@ class SurfaceClusters {
     const span<float> values = workspace.take<float>(count);
     for (std::size_t c = 0; c < clusters.centre.size(); ++c)
       share(sorted.subspan(begin[c], begin[c + 1] - begin[c]), scores, values, common);
+  }
+
+  /// Of each member: lateral and depth in units in which noise is round. Regions are so far apart that they share no
+  /// cluster.
+  PointArrays coordinates(const Matches& matches, span<const std::uint32_t> member, const Regions& regions,
+                          Workspace& workspace) const {
+    PointArrays points(member.size(), workspace);
+    const Workspace::Scope scope(workspace);
+    const span<double> whitened = workspace.take<double>(member.size());
+    whiten(matches, member, whitened, workspace);
+    const double apart = std::max(1000.0, 2.0 * *std::max_element(whitened.begin(), whitened.end()));
+    for (std::size_t j = 0; j < member.size(); ++j) {
+      const std::size_t i = member[j];
+      const Vector2d lateral =
+          Vector2d(matches.current.pixel[i].cast<double>()) / (kExtent_px * static_cast<double>(matches.pixel_scale));
+      points.set(j, {lateral.x(), lateral.y(), whitened[j] + apart * (regions.of_feature[i].dynamic_region + 1)});
+    }
+    return points;
   }
 
   /// Depth in units of its own noise: ∫ dz / extent(z), by the trapezoidal rule over the members in the order of depth.
