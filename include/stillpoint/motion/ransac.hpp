@@ -77,6 +77,16 @@ struct RansacOptions {
   std::uint64_t seed = Random::kDefaultSeed;
 };
 
+/// The options of a stage that has `confidence`, `max_trials` and `seed`.
+template <class StageOptions>
+RansacOptions ransac_options(double inlier_threshold, const StageOptions& stage) {
+  RansacOptions options(inlier_threshold);
+  options.confidence = stage.confidence;
+  options.max_trials = stage.max_trials;
+  options.seed = stage.seed;
+  return options;
+}
+
 /// All figures belong to `model`: they are computed once, from it.
 template <class Model>
 struct RansacReport {

@@ -128,14 +128,6 @@ class EpipolarMotion {
     return pairs;
   }
 
-  RansacOptions ransac_options(double threshold) const {
-    RansacOptions result(threshold);
-    result.confidence = options.confidence;
-    result.max_trials = options.max_trials;
-    result.seed = options.seed;
-    return result;
-  }
-
   /// How far off a simpler motion may leave a match before that is parallax and not noise. F's own residuals tell the
   /// noise (median absolute deviation: half of the candidates may move), so that a step of millimetres is not taken for
   /// a rotation where the matches are good.
@@ -161,7 +153,7 @@ class EpipolarMotion {
   RansacReport<Matrix3d> rotation(const Pairs& pairs, const Camera& camera, double noise, Workspace& workspace) const {
     if (!(noise > 0.0)) return {};
     const RotationEstimator<Camera> estimator(pairs.reference_ray, pairs.current_ray, camera);
-    RansacOptions settings = ransac_options(noise);
+    RansacOptions settings = ransac_options(noise, options);
     settings.max_trials = std::min(settings.max_trials, required_trials(0.5, 2, options.confidence, 1000));
     return ransac<InlierCountSupport>(estimator, settings, workspace);
   }
@@ -185,7 +177,7 @@ class EpipolarMotion {
   void estimate_with(const Matches& matches, Pairs pairs, const Camera& camera, Motion& motion,
                      Workspace& workspace) const {
     const FundamentalEstimator<MinimalSolver> estimator(pairs.reference, pairs.current, workspace);
-    const auto report = ransac(estimator, ransac_options(options.threshold_px), workspace);
+    const auto report = ransac(estimator, ransac_options(options.threshold_px, options), workspace);
     motion.inliers = static_cast<int>(report.inliers);
     motion.status = report.degenerate == report.trials ? Status::degenerate_geometry : Status::no_consensus;
     const double least = options.min_inlier_share * static_cast<double>(pairs.size());
@@ -233,7 +225,7 @@ class EpipolarMotion {
     }
     const Matrix3d normalised = from_current.matrix().inverse().transpose() * f * from_reference.matrix().inverse();
     const PlaneEstimator estimator(reference, current, normalised / normalised.norm(), 1.0 / from_current.scale);
-    RansacOptions settings = ransac_options(noise);
+    RansacOptions settings = ransac_options(noise, options);
     settings.max_trials = std::min(settings.max_trials, required_trials(options.planar_share, 3, 0.9999, 1000));
     const auto report = ransac<InlierCountSupport>(estimator, settings, workspace);
     return static_cast<double>(report.inliers) >= options.planar_share * static_cast<double>(pairs.size());

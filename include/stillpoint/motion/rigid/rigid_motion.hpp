@@ -69,11 +69,7 @@ class RigidMotion {
       return motion;
     }
     const RigidEstimator estimator(shuffled_pairs(matches, candidates, camera, workspace), workspace);
-    RansacOptions ransac_options(options.threshold_sigma);
-    ransac_options.confidence = options.confidence;
-    ransac_options.max_trials = options.max_trials;
-    ransac_options.seed = options.seed;
-    const auto report = ransac(estimator, ransac_options, workspace);
+    const auto report = ransac(estimator, ransac_options(options.threshold_sigma, options), workspace);
     motion.inliers = static_cast<int>(report.inliers);
     motion.status = judge(report, candidates.size());
     if (motion.status != Status::ok) return motion;
