@@ -59,8 +59,8 @@ class FlowNeighbours {
         label.log_odds = options.alone;
         continue;
       }
-      const float others = vote.weight > 0 ? vote.sum / vote.weight : held(scores[i]);
-      const float own = scores[i].scored() ? held(scores[i]) : others;
+      const float others = vote.weight > 0 ? vote.sum / vote.weight : clamped(scores[i]);
+      const float own = scores[i].scored() ? clamped(scores[i]) : others;
       const Membership& region = regions.of_feature[i];
       label.log_odds = options.own_share * own + (1 - options.own_share) * others -
                        static_cast<float>(evidence.threshold.level) +
@@ -76,7 +76,7 @@ class FlowNeighbours {
     float weight = 0, sum = 0;
   };
 
-  float held(const FeatureScore& score) const noexcept { return std::max(score.value, options.lowest); }
+  float clamped(const FeatureScore& score) const noexcept { return std::max(score.value, options.lowest); }
 
   Vote neighbours(const Matches& matches, span<const FeatureScore> scores, const PixelGrid& grid, std::size_t i) const {
     const auto step = [&matches](std::size_t k) -> Vector2f {
@@ -90,7 +90,7 @@ class FlowNeighbours {
       if (j == i || (has_step && !((step(j) - own).squaredNorm() <= limit_px * limit_px))) return;
       const float near = 1 - squared / (options.reach_px * options.reach_px);
       vote.weight += near;
-      vote.sum += near * held(scores[j]);
+      vote.sum += near * clamped(scores[j]);
     });
     return vote;
   }

@@ -97,12 +97,12 @@ class SurfaceClusters {
                                : 0.0f;
   }
 
-  float held(const FeatureScore& score) const noexcept { return std::clamp(score.value, kLowest, kHighest); }
+  float clamped(const FeatureScore& score) const noexcept { return std::clamp(score.value, kLowest, kHighest); }
 
   /// The feature's own evidence and its cluster's.
   /// @param common  score of its cluster above the threshold, nats
   void label_by_cluster(const FeatureScore& score, float common, float level, Label& label) const noexcept {
-    const float own = score.scored() ? held(score) - level : common;
+    const float own = score.scored() ? clamped(score) - level : common;
     label.log_odds = options.own_share * own + (1 - options.own_share) * std::min(common, kMostShared - level);
     label.reason = score.scored() ? Reason::consistent : Reason::neighbours;
   }
@@ -136,7 +136,7 @@ class SurfaceClusters {
         label_by_cluster(scores[i], common[i], level, label);
         label.log_odds += missing_depth;
       } else if (scores[i].scored()) {
-        label.log_odds = kDepthlessOwn * (held(scores[i]) - level) + kDepthlessNeighbours * others + missing_depth;
+        label.log_odds = kDepthlessOwn * (clamped(scores[i]) - level) + kDepthlessNeighbours * others + missing_depth;
         label.reason = Reason::consistent;
       } else {
         label.log_odds = around[i].any ? kNeighbourShare * others : kAlone;
@@ -229,7 +229,7 @@ class SurfaceClusters {
              span<float> common) const {
     std::size_t count = 0;
     for (const std::uint32_t i : members)
-      if (scores[i].scored()) values[count++] = held(scores[i]);
+      if (scores[i].scored()) values[count++] = clamped(scores[i]);
     if (count == 0) return;
     std::sort(values.begin(), values.begin() + count);
     const Split split = best_split(values.first(count));
@@ -237,7 +237,7 @@ class SurfaceClusters {
       if (!scores[i].scored())
         common[i] = split.mean;
       else
-        common[i] = held(scores[i]) < split.at ? split.low_mean : split.high_mean;
+        common[i] = clamped(scores[i]) < split.at ? split.low_mean : split.high_mean;
     }
   }
 

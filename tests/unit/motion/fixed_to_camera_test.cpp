@@ -41,8 +41,8 @@ class FixedToCameraTest : public testing::Test {
   }
 
   /// Which constraints lost their weight.
-  std::vector<bool> released() {
-    stage.release(points, features, test::test_camera(), workspace);
+  std::vector<bool> down_weighted() {
+    stage.down_weight(points, features, test::test_camera(), workspace);
     std::vector<bool> lost;
     for (const PointConstraint& point : points) {
       EXPECT_EQ(point.weight < 0.1, point.weight_without_prior < 0.1);
@@ -69,31 +69,31 @@ class FixedToCameraTest : public testing::Test {
 TEST_F(FixedToCameraTest, WhatStaysBeforeAllThatMovesIs) {
   add(20, 0.1, 0.45);
   add(80, 2.0, 3.0);
-  EXPECT_EQ(released(), first(20));
+  EXPECT_EQ(down_weighted(), first(20));
 }
 
 TEST_F(FixedToCameraTest, SwitchedOffNothingIs) {
   stage.is_enabled = false;
   add(20, 0.1, 0.45);
   add(80, 2.0, 3.0);
-  EXPECT_EQ(released(), first(0));
+  EXPECT_EQ(down_weighted(), first(0));
 }
 
-TEST_F(FixedToCameraTest, WithoutConstraintsNothingIs) { EXPECT_EQ(released(), first(0)); }
+TEST_F(FixedToCameraTest, WithoutConstraintsNothingIs) { EXPECT_EQ(down_weighted(), first(0)); }
 
 // 0.3 px, as for `StationaryCamera`.
 TEST_F(FixedToCameraTest, WhatMovesALittleIsNot) {
   add(10, 0.28, 0.45);
   add(10, 0.32, 0.45);
   add(80, 2.0, 3.0);
-  EXPECT_EQ(released(), first(10));
+  EXPECT_EQ(down_weighted(), first(10));
 }
 
 // The others move by 0.95 px: noise may have left the near ones at rest.
 TEST_F(FixedToCameraTest, WhereTheOthersHardlyMoveNothingIs) {
   add(20, 0.1, 0.45);
   add(80, 0.95, 3.0);
-  EXPECT_EQ(released(), first(0));
+  EXPECT_EQ(down_weighted(), first(0));
 }
 
 // Harmonic mean depth of the others: 2 / (1/2 + 1/6) = 3 m; what is fixed lies within 2.1 m.
@@ -102,7 +102,7 @@ TEST_F(FixedToCameraTest, ItLiesBeforeTheOthers) {
   add(2, 0.0, 2.15);
   add(40, 2.0, 2.0);
   add(40, 2.0, 6.0);
-  EXPECT_EQ(released(), first(10));
+  EXPECT_EQ(down_weighted(), first(10));
 }
 
 // Somebody walks through the view of a stationary camera, a table is near, and the wall stays where it is: 9 of 80 are
@@ -111,21 +111,21 @@ TEST_F(FixedToCameraTest, WhereSomethingFartherStaysTheCameraMayBeStationary) {
   add(20, 0.0, 0.45);
   add(9, 0.0, 4.0);
   add(80, 3.0, 2.0);
-  EXPECT_EQ(released(), first(0));
+  EXPECT_EQ(down_weighted(), first(0));
 }
 
 TEST_F(FixedToCameraTest, AFewThatStayFartherAwayDoNotMatter) {
   add(20, 0.0, 0.45);
   add(7, 0.0, 4.0);
   add(80, 3.0, 2.0);
-  EXPECT_EQ(released(), first(20));
+  EXPECT_EQ(down_weighted(), first(20));
 }
 
 // Four of 84 are fewer than a twentieth: near the point about which a camera turns some stay by chance.
 TEST_F(FixedToCameraTest, AFewCornersAreNothing) {
   add(4, 0.0, 0.45);
   add(80, 3.0, 2.0);
-  EXPECT_EQ(released(), first(0));
+  EXPECT_EQ(down_weighted(), first(0));
 }
 
 // What has no depth may be near or out of range: it is neither fixed nor behind.
@@ -133,13 +133,13 @@ TEST_F(FixedToCameraTest, WithoutADepthNobodyKnowsWhereItLies) {
   add(20, 0.0, 0.45);
   add(20, 0.0, 0.0);
   add(80, 3.0, 2.0);
-  EXPECT_EQ(released(), first(20));
+  EXPECT_EQ(down_weighted(), first(20));
 }
 
 TEST_F(FixedToCameraTest, WhereNothingThatMovesHasADepthNothingIs) {
   add(20, 0.0, 0.45);
   add(80, 3.0, 0.0);
-  EXPECT_EQ(released(), first(0));
+  EXPECT_EQ(down_weighted(), first(0));
 }
 
 // What moved before has little weight in the motion: it is no world to lie before.
@@ -148,7 +148,7 @@ TEST_F(FixedToCameraTest, TheWeightsCount) {
   add(80, 0.5, 3.0);
   add(80, 5.0, 1.0);
   for (std::size_t k = 100; k < 180; ++k) points[k].weight = 0.008;
-  stage.release(points, features, test::test_camera(), workspace);
+  stage.down_weight(points, features, test::test_camera(), workspace);
   EXPECT_EQ(points[0].weight, 0.8);
 }
 
@@ -160,7 +160,7 @@ TEST_F(FixedToCameraTest, AnOlderFrameSpeaksForAll) {
   add_features(20, 80, 5.0, 3.0, 1);
   std::vector<bool> expected = first(20);
   std::fill_n(expected.begin() + 100, 20, true);
-  EXPECT_EQ(released(), expected);
+  EXPECT_EQ(down_weighted(), expected);
 }
 
 }  // namespace

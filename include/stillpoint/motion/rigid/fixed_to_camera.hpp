@@ -23,9 +23,10 @@ namespace stillpoint {
 struct FixedToCamera {
   bool is_enabled = true;  ///< false: everything may support the motion; no option in files
 
-  /// Takes the weight in the motion from such corners, in all older frames. Whether they move is for the scorer to say.
+  /// Leaves such corners little weight in the motion, in all older frames. Whether they move is for the scorer to say.
   template <class Camera>
-  void release(span<PointConstraint> points, std::size_t features, const Camera& camera, Workspace& workspace) const {
+  void down_weight(span<PointConstraint> points, std::size_t features, const Camera& camera,
+                   Workspace& workspace) const {
     if (!is_enabled) return;
     const Workspace::Scope scope(workspace);
     const span<std::uint8_t> is_fixed = workspace.take<std::uint8_t>(features, std::uint8_t{0});

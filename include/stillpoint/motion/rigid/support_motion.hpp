@@ -66,7 +66,7 @@ class SupportMotion {
     motion.candidates = static_cast<int>(points.size());
     motion.status = Status::too_few_matches;
     if (points.size() < kFewestMatches) return motion;
-    fixed_to_camera.release(points, matches.size(), camera, workspace);
+    fixed_to_camera.down_weight(points, matches.size(), camera, workspace);
 
     const span<const OlderFrame> frames = matches.past_observations.frames();
     auto problem =
@@ -102,7 +102,7 @@ class SupportMotion {
     const span<OlderFrame> frames = observations.matches.past_observations.frames();
     const span<PointConstraint> points = constraints.from_past_observations(observations, camera, workspace);
     if (frames.empty() || points.size() < kFewestMatches * frames.size()) return;
-    fixed_to_camera.release(points, observations.matches.size(), camera, workspace);
+    fixed_to_camera.down_weight(points, observations.matches.size(), camera, workspace);
     auto problem = problem_of(points, frames, observations, camera, workspace);
     problem.calibrate(frames[0].reference_from_current, least_noise(), most_noise(), workspace);
     Hypothesis weighted;
