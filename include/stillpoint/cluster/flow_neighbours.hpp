@@ -5,7 +5,6 @@
 // Which features move together, when there is no depth?   Neighbours that go the same way share their evidence.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "stillpoint/core/capabilities.hpp"

@@ -10,7 +10,6 @@
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/small_linear_algebra.hpp"
-#include "stillpoint/core/span.hpp"
 
 namespace stillpoint {
 
@@ -52,7 +51,8 @@ class PixelInformation {
 
   /// The covariance, rad and m: a lower bound (Cramér and Rao), which a linear estimate does not reach. Pixel noise is
   /// the residuals' own, at least `kLeastNoise`.
-  /// @param length_sigma_m of t's length, where the constraints say nothing of it; infinite: unknown as well
+  /// @param length_sigma_m  of t's length, where the constraints say nothing of it; infinite: unknown as well;
+  ///                        0: it is not constrained, as of a motion without a translation
   Matrix6d covariance(double length_sigma_m) const {
     const double redundancy = std::max(static_cast<double>(count_) - 6.0, 1.0);
     const double variance = std::max(squared_error_ / redundancy, kLeastNoise * kLeastNoise);

@@ -7,7 +7,6 @@
 
 #include <Eigen/LU>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>

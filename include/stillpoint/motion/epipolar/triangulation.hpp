@@ -4,7 +4,6 @@
 
 // Where do two rays meet?
 
-#include <cmath>
 #include <limits>
 
 #include "stillpoint/core/geometry.hpp"

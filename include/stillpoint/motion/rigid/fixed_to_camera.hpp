@@ -4,7 +4,6 @@
 
 // Which corners are fixed to the camera?   A gripper, a bumper, the hood of a car.
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 

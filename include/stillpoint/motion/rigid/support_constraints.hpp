@@ -46,8 +46,8 @@ struct SupportConstraints {
     return points.first(count);
   }
 
-  /// The support corners' past_observations in all older frames, frame by frame, and the matches of those without a
-  /// depth.
+  /// What all older frames say of the support corners: first the matches of those without a depth, then what each older
+  /// frame shows of the others, frame by frame.
   template <class Camera>
   span<PointConstraint> from_past_observations(const Observations& observations, const Camera& camera,
                                                Workspace& workspace) const {

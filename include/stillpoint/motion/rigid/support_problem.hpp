@@ -27,8 +27,10 @@ struct SupportNoise {
 /// A motion, and what speaks for it.
 struct MotionHypothesis {
   Pose reference_from_current = Pose::Identity();
+  /// The inverse of its covariance in the coordinates of `Motion::covariance` (rad, m), as if constraints were wrong
+  /// independently of each other; zero: not refined.
   Matrix6d information = Matrix6d::Zero();
-  double support = 0;
+  double support = 0;  ///< summed weight of what it explains, each by how well (`SupportProblem::support`)
 };
 
 /// The weight of the points that only one of two poses explains.
