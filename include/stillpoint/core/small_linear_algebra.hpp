@@ -79,8 +79,8 @@ class Cholesky {
 
 /// The matrix with a little more on its diagonal: holds what nothing is known of.
 template <int N>
-Eigen::Matrix<double, N, N> held(Eigen::Matrix<double, N, N> matrix, double hold) {
-  for (int i = 0; i < N; ++i) matrix(i, i) += hold;
+Eigen::Matrix<double, N, N> damped(Eigen::Matrix<double, N, N> matrix, double damping) {
+  for (int i = 0; i < N; ++i) matrix(i, i) += damping;
   return matrix;
 }
 

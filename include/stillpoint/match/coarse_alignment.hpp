@@ -204,7 +204,7 @@ class CoarseAlignment {
       for (int j = 0; j < 6; ++j) normal(i, j) = static_cast<double>(sums[j][i]);
       gradient(i) = static_cast<double>(sums[i][kUnknowns]);
     }
-    step.increment = -Cholesky<6>(held(normal, kHold)).solve(gradient);
+    step.increment = -Cholesky<6>(damped(normal, kHold)).solve(gradient);
     return step;
   }
 

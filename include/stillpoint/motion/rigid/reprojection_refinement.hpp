@@ -133,7 +133,7 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
     }
     // What nothing is known of stays: a thousandth of a constraint holds it.
     constexpr double kHold = 1e-6;
-    const Vector6d x = -Cholesky<6>(held(normal, kHold)).solve(gradient);
+    const Vector6d x = -Cholesky<6>(damped(normal, kHold)).solve(gradient);
     constexpr double kLongestStep = 0.5;  // radians, metres; more is no refinement
     const Vector3d turn = rotation_part(x), shift = translation_part(x);
     if (!(turn.norm() < kLongestStep) || !(shift.norm() < kLongestStep)) return information;

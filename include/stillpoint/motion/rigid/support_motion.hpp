@@ -280,7 +280,7 @@ class SupportMotion {
                                         ? inertia.fuse(current_from_reference, information, prior)
                                         : current_from_reference;
     motion.correlation = Inertia::kCorrelated;
-    motion.covariance = Inertia::kCorrelated * Cholesky<6>(held(information, kHold)).inverse();
+    motion.covariance = Inertia::kCorrelated * Cholesky<6>(damped(information, kHold)).inverse();
   }
 };
 
