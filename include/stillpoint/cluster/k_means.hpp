@@ -161,9 +161,9 @@ inline bool refill_empty_clusters(const PointArrays& points, const NearestCentre
           (farthest == points.size || nearest.squared(i) > nearest.squared(farthest)))
         farthest = i;
     const auto old = static_cast<std::size_t>(result.cluster[farthest]);
-    sum[old] -= Vector3d(points[farthest].cast<double>());
+    sum[old] -= to_double(points[farthest]);
     --result.member_count[old];
-    sum[c] = points[farthest].cast<double>();
+    sum[c] = to_double(points[farthest]);
     result.member_count[c] = 1;
     result.cluster[farthest] = static_cast<std::int32_t>(c);
     any = true;
@@ -219,13 +219,12 @@ inline KMeansResult lloyd(const PointArrays& points, span<Eigen::Vector3f> centr
       changed = changed || nearest.index(i) != result.cluster[i];
       result.cluster[i] = nearest.index(i);
       const auto c = static_cast<std::size_t>(nearest.index(i));
-      sum[c] += Vector3d(points[i].cast<double>());
+      sum[c] += to_double(points[i]);
       ++result.member_count[c];
       left += static_cast<double>(nearest.squared(i));
     }
     if (detail::refill_empty_clusters(points, nearest, result, sum)) changed = true;
-    for (std::size_t c = 0; c < k; ++c)
-      centres[c] = (sum[c] / static_cast<double>(result.member_count[c])).cast<float>();
+    for (std::size_t c = 0; c < k; ++c) centres[c] = to_float(sum[c] / static_cast<double>(result.member_count[c]));
     improves = changed && left > 0;  // with fewer different points than centres, empty clusters change for ever
   }
   for (std::size_t i = 0; i < points.size; ++i)

@@ -193,7 +193,7 @@ class SurfaceClusters {
     for (std::size_t j = 0; j < member.size(); ++j) {
       const std::size_t i = member[j];
       const Vector2d lateral =
-          Vector2d(matches.current.pixel[i].cast<double>()) / (kExtent_px * static_cast<double>(matches.pixel_scale));
+          to_double(matches.current.pixel[i]) / (kExtent_px * static_cast<double>(matches.pixel_scale));
       points.set(j, {lateral.x(), lateral.y(), whitened[j] + apart * (regions.of_feature[i].dynamic_region + 1)});
     }
     return points;

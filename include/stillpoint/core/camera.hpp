@@ -120,13 +120,13 @@ double lens_stretch(const AnyCamera& camera, const Vector2d& pixel) {
 /// The image's pixel where a point is seen. The point is in the camera's frame, with z > 0.
 template <class AnyCamera>
 Vector2f image_pixel(const AnyCamera& camera, const Vector3d& point) {
-  return camera.distort(camera.project(point)).template cast<float>();
+  return to_float(camera.distort(camera.project(point)));
 }
 
 /// The point in the camera's frame that a pixel of the image shows at a depth (z, metres).
 template <class AnyCamera>
 Vector3d point_at_depth(const AnyCamera& camera, const Vector2f& pixel, double depth_m) {
-  return camera.back_project(camera.undistort(pixel.template cast<double>()), depth_m);
+  return camera.back_project(camera.undistort(to_double(pixel)), depth_m);
 }
 
 /// The camera of the policy sets we ship: its lens model is chosen at run time.

@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 #include "stillpoint/core/needs_cpp17.hpp"
@@ -101,6 +103,37 @@ FixedMatrix<Scalar, Rows, Columns> operator*(const Eigen::Matrix<Scalar, Rows, I
       product(i, j) = sum;
     }
   return product;
+}
+
+template <class Scalar, int Rows, int Columns>
+FixedMatrix<double, Rows, Columns> to_double(const Eigen::Matrix<Scalar, Rows, Columns>& a) {
+  Eigen::Matrix<double, Rows, Columns> result;
+  for (int i = 0; i < Rows * Columns; ++i) result.data()[i] = static_cast<double>(a.data()[i]);
+  return result;
+}
+
+template <class Scalar, int Rows, int Columns>
+FixedMatrix<float, Rows, Columns> to_float(const Eigen::Matrix<Scalar, Rows, Columns>& a) {
+  Eigen::Matrix<float, Rows, Columns> result;
+  for (int i = 0; i < Rows * Columns; ++i) result.data()[i] = static_cast<float>(a.data()[i]);
+  return result;
+}
+
+/// The transpose. By its elements: g++ 12 says of Eigen's, with -O1 and its assertions, that it may be uninitialised.
+template <class Scalar, int Rows, int Columns>
+FixedMatrix<Scalar, Columns, Rows> transposed(const Eigen::Matrix<Scalar, Rows, Columns>& a) {
+  Eigen::Matrix<Scalar, Columns, Rows> result;
+  for (int i = 0; i < Rows; ++i)
+    for (int j = 0; j < Columns; ++j) result(j, i) = a(i, j);
+  return result;
+}
+
+/// The largest magnitude of an entry; entries that are NaN do not count.
+template <class Scalar, int Rows, int Columns>
+Scalar largest_magnitude(const Eigen::Matrix<Scalar, Rows, Columns>& a) {
+  Scalar largest = 0;
+  for (int i = 0; i < Rows * Columns; ++i) largest = std::max(largest, std::abs(a.data()[i]));
+  return largest;
 }
 
 /// A rigid motion applied to a point.

@@ -110,18 +110,22 @@ inline double rotation_angle(const Matrix3d& rotation) {
 /// The vector ω of a rotation, radians: the inverse of `rotation_from_vector`.
 inline Vector3d vector_from_rotation(const Matrix3d& rotation) {
   const Eigen::Quaterniond q(rotation);
-  const Vector3d axis = q.vec();
+  const Vector3d axis(q.x(), q.y(), q.z());
   const double sine = axis.norm();  // of half the angle
   if (!(sine > 1e-12)) return (q.w() < 0.0 ? -2.0 : 2.0) * axis;
   return 2.0 * std::atan2(sine, std::abs(q.w())) * (axis / (q.w() < 0.0 ? -sine : sine));  // q and -q are the same
 }
 
-/// By its elements: g++ 12 says of Eigen's, with -O1 and its assertions, that it may be used uninitialised.
-inline Matrix3d transposed(const Matrix3d& matrix) {
-  Matrix3d result;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) result(row, column) = matrix(column, row);
-  return result;
+/// The rotation of a quaternion (w, x, y, z) of any length but 0.
+inline Matrix3d rotation_from_quaternion(double w, double x, double y, double z) {
+  const double length = std::sqrt((x * x + z * z) + (y * y + w * w));
+  w /= length, x /= length, y /= length, z /= length;
+  const double x2 = 2 * x, y2 = 2 * y, z2 = 2 * z;
+  Matrix3d rotation;
+  rotation << 1 - (y2 * y + z2 * z), y2 * x - z2 * w, z2 * x + y2 * w,  //
+      y2 * x + z2 * w, 1 - (x2 * x + z2 * z), z2 * y - x2 * w,          //
+      z2 * x - y2 * w, z2 * y + x2 * w, 1 - (x2 * x + y2 * y);
+  return rotation;
 }
 
 /// The motion back: source_from_target. What `Pose::inverse` gives; that compiles four ways to invert for the one that
@@ -152,7 +156,8 @@ inline Pose at_constant_velocity(const Vector3d& angular_rad_s, const Vector3d& 
 /// The same pose with its rotation made orthonormal again: products of many poses, and `inverted` (which transposes),
 /// drift away from it.
 inline Pose orthonormalized(const Pose& pose) {
-  return make_pose(Eigen::Quaterniond(rotation_of(pose)).normalized().toRotationMatrix(), translation_of(pose));
+  const Eigen::Quaterniond q(rotation_of(pose));
+  return make_pose(rotation_from_quaternion(q.w(), q.x(), q.y(), q.z()), translation_of(pose));
 }
 
 }  // namespace stillpoint

@@ -21,7 +21,7 @@ struct keypoint_traits;
 
 template <class Scalar>
 struct keypoint_traits<Eigen::Matrix<Scalar, 2, 1>> {
-  static Vector2f pixel(const Eigen::Matrix<Scalar, 2, 1>& keypoint) { return keypoint.template cast<float>(); }
+  static Vector2f pixel(const Eigen::Matrix<Scalar, 2, 1>& keypoint) { return to_float(keypoint); }
 };
 
 namespace detail {

@@ -15,6 +15,15 @@
 
 namespace stillpoint {
 
+/// xᵀ A x.
+template <int N>
+double quadratic_form(const Eigen::Matrix<double, N, N>& a, const Eigen::Matrix<double, N, 1>& x) {
+  double sum = 0;
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) sum += x(i) * a(i, j) * x(j);
+  return sum;
+}
+
 /// A = L Lᵀ of a symmetric positive definite matrix; the lower triangle is read. O(N³), no allocation.
 /// Source: Golub and Van Loan, "Matrix Computations", 4th ed., algorithm 4.2.1.
 template <int N>

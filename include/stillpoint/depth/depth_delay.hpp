@@ -127,7 +127,7 @@ class DepthDelay {
       if (!(after.z() > 0.1 * before.z())) return;
       // Both by the lens: beyond its range `undistort` has no inverse.
       const Vector2d flow = camera.distort(camera.project(after)) - camera.distort(camera.project(before));
-      jumps_.push_back({pixel, flow.template cast<float>()});
+      jumps_.push_back({pixel, to_float(flow)});
     });
   }
 

@@ -58,7 +58,7 @@ void lift(const FrameView& frame, const Lookup& lookup, const Camera& camera, co
   for (std::size_t i = 0; i < observations.size(); ++i) {
     const Vector2f pixel = observations.pixel[i];
     if (!is_finite(pixel)) continue;
-    observations.undistorted[i] = camera.undistort(pixel.template cast<double>());
+    observations.undistorted[i] = camera.undistort(to_double(pixel));
     const double depth_m = frame.depth.empty() ? 0.0 : detail::depth_by(lookup, frame.depth, to_depth(pixel), noise, 0);
     observations.set_depth(i, depth_m, depth_m > 0.0 ? noise.sigma(depth_m) : 0.0, camera);
   }

@@ -34,7 +34,7 @@ class TileMotion {
     const Vector2d step_px(1.0 / static_cast<double>(to_depth.x), 1.0 / static_cast<double>(to_depth.y));
     middle_x_ = 0.5f * static_cast<float>(left + std::min(left + kSide_px, image.width));
     middle_y_ = 0.5f * static_cast<float>(top + std::min(top + kSide_px, image.height));
-    const Vector2d middle_px = to_depth.inverse({middle_x_, middle_y_}).template cast<double>();
+    const Vector2d middle_px = to_double(to_depth.inverse({middle_x_, middle_y_}));
     const auto plane_at = [&](double x_px, double y_px) {
       return camera.back_project(camera.undistort(Vector2d(x_px, y_px)), 1.0);
     };

@@ -32,7 +32,7 @@ double borrowed_depth_m(const Vector2d& pixel, double start_m, const FrameView& 
     const Vector3d there = reference_from_current * camera.back_project(pixel, depth_m);
     if (!(there.z() > kNearest_m)) return 0.0;
     const Vector2d seen_at = camera.project(there);
-    const double measured_m = guard.at(older, camera.distort(seen_at).template cast<float>(), noise);
+    const double measured_m = guard.at(older, to_float(camera.distort(seen_at)), noise);
     if (!(measured_m > 0)) return 0.0;
     const Vector3d measured = camera.back_project(seen_at, measured_m) - translation_of(reference_from_current);
     const double now_m = measured.dot(along);

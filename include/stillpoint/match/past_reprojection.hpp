@@ -27,8 +27,8 @@
 #include "stillpoint/match/older_frame_choice.hpp"
 #include "stillpoint/match/older_frames.hpp"
 #include "stillpoint/match/patch.hpp"
-#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/patch_observation.hpp"
+#include "stillpoint/match/patch_search.hpp"
 #include "stillpoint/match/same_place.hpp"
 #include "stillpoint/match/space_search.hpp"
 #include "stillpoint/match/static_place.hpp"
@@ -113,7 +113,7 @@ class PastReprojection {
     if (!is_finite(past.point[alike])) return;  // on no surface: not looked for
     const double depth_m = features.has_depth(i) ? features.depth_m[i] : past.point[alike].z();
     set_depth_in_past(i, depth_m, past.inverse_depth_sigma[alike], camera, matches);
-    const Vector2f beside = Vector2d(features.undistorted[i] - features.undistorted[alike]).cast<float>();
+    const Vector2f beside = to_float(features.undistorted[i] - features.undistorted[alike]);
     for (OlderFrame& older : matches.past_observations.frames()) {
       Observation& observation = older.of_feature[i] = older.of_feature[alike];
       observation.found += beside;

@@ -36,7 +36,7 @@ void set_found(const PatchFit& fit, const StaticPlace& place, const Camera& came
   observation.state = ObservationState::seen;
   observation.dissimilarity = fit.dissimilarity;
   observation.offset_px = fit.offset.norm();
-  observation.found = camera.undistort((place.pixel + fit.offset).template cast<double>()).template cast<float>();
+  observation.found = to_float(camera.undistort(to_double(place.pixel + fit.offset)));
 }
 
 }  // namespace stillpoint

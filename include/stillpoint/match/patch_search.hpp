@@ -139,8 +139,7 @@ class PatchComparison {
 inline PatchFit find_patch(const Patch& patch, const ImageView& gray, const Vector2f& start,
                            const PatchSearch& search) noexcept {
   PatchFit best;
-  const float warp_px =
-      Patch::kHalf * (search.warp - Eigen::Matrix2f(Eigen::Matrix2f::Identity())).lpNorm<Eigen::Infinity>();
+  const float warp_px = Patch::kHalf * largest_magnitude(search.warp - Eigen::Matrix2f(Eigen::Matrix2f::Identity()));
   const bool shifted_only = warp_px < 0.5f;
   const detail::PatchComparison compare(patch);
   Vector2f offset = Vector2f::Zero();

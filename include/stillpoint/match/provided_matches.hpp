@@ -190,7 +190,7 @@ class ProvidedMatches {
       observation.state = ObservationState::seen;
       observation.dissimilarity = kDissimilarity;
       observation.found = tracks_.pixel(i, frame.age);
-      const Vector2f found_px = camera.distort(observation.found.template cast<double>()).template cast<float>();
+      const Vector2f found_px = to_float(camera.distort(to_double(observation.found)));
       observation.offset_px = (found_px - place.pixel).norm();
       sum_px += observation.offset_px;
       if (observation.offset_px > options.objection_px &&

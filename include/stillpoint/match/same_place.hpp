@@ -42,9 +42,10 @@ class SamePlace {
 
   /// Pixels may lie anywhere: the numbers of cells need not fit an integer.
   void enter_cell_of(const Vector2f& pixel) noexcept {
-    const Vector2f cell = (pixel / cell_px_).array().floor();
-    if (cell != cell_) count_ = 0;
-    cell_ = cell;
+    const float column = std::floor(pixel.x() / cell_px_), row = std::floor(pixel.y() / cell_px_);
+    if (!(column == column_ && row == row_)) count_ = 0;
+    column_ = column;
+    row_ = row;
   }
 
   static bool is_near(const Vector2f& a, const Vector2f& b) noexcept {
@@ -57,7 +58,7 @@ class SamePlace {
   }
 
   float cell_px_;
-  Vector2f cell_ = Vector2f::Constant(-1);
+  float column_ = -1, row_ = -1;  // of the cell
   std::array<Vector2f, kMost> pixel_;
   std::array<std::uint32_t, kMost> feature_;
   std::size_t count_ = 0;

@@ -46,8 +46,8 @@ struct SurfaceSearch {
         const double bend_m =
             std::max(std::abs(left.z() + right.z() - 2 * centre.z()), std::abs(above.z() + below.z() - 2 * centre.z()));
         if (bend_m > kSmooth.at(noise.sigma(centre.z()))) continue;
-        const Vector3d normal = (right - left).cross(below - above).normalized();
-        if (!(std::abs(normal.dot(centre.normalized())) > kSteepestCosine)) continue;
+        const Vector3d across = (right - left).cross(below - above), normal = across / across.norm();
+        if (!(std::abs(normal.dot(centre / centre.norm())) > kSteepestCosine)) continue;
         const Vector2f pixel(static_cast<float>(u), static_cast<float>(v));
         surfaces.push_back({pixel, centre, normal, noise.sigma(centre.z()), 1.0f});
       }

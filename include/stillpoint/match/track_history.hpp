@@ -45,12 +45,12 @@ class TrackHistory {
     const PixelGrid last(newest_.pixels, kCell_px, workspace, [](std::size_t) { return true; });
     for (std::size_t i = 0; i < count; ++i) {
       next_.pixels[i] = matches.current.pixel[i];
-      next_.undistorted[i] = matches.current.undistorted[i].cast<float>();
+      next_.undistorted[i] = to_float(matches.current.undistorted[i]);
       next_.depth_m[i] = matches.current.depth_m[i];
       next_.length[i] = 0;
       if (!matches.matched(i)) continue;
       Vector2f* const track = next_.tracks.data() + i * capacity;
-      track[0] = matches.reference.undistorted[i].cast<float>();
+      track[0] = to_float(matches.reference.undistorted[i]);
       next_.length[i] = 1;
       const std::size_t parent = nearest(last, matches.reference, i, same_point_px);
       if (parent == PixelGrid::kNone) continue;

@@ -19,9 +19,9 @@ namespace stillpoint {
 /// @return nothing if the second singular value is below `rank_tolerance` of the first: all vectors lie on one line,
 ///         and the rotation about it is not determined. Not finite: nothing.
 inline std::optional<Matrix3d> rotation_from_correlation(const Matrix3d& correlation, double rank_tolerance = 1e-9) {
-  const double size = correlation.lpNorm<Eigen::Infinity>();
+  const double size = largest_magnitude(correlation);
   if (!is_finite(correlation) || !(size > 0.0)) return std::nullopt;
-  Matrix3d s = correlation.transpose();  // Horn's Sxy is s(0, 1)
+  Matrix3d s = transposed(correlation);  // Horn's Sxy is s(0, 1)
   s /= size;
   // trace(R Cᵀ) = qᵀ N q with the unit quaternion q = (w, x, y, z): the best is the eigenvector of the largest value.
   Eigen::Matrix4d n;
@@ -35,7 +35,7 @@ inline std::optional<Matrix3d> rotation_from_correlation(const Matrix3d& correla
   const double first = eigen.value(3) + eigen.value(2), second = eigen.value(3) + eigen.value(1);
   if (!(second > rank_tolerance * first)) return std::nullopt;
   const Eigen::Vector4d q = eigen.vector(3);
-  return Eigen::Quaterniond(q(0), q(1), q(2), q(3)).normalized().toRotationMatrix();
+  return rotation_from_quaternion(q(0), q(1), q(2), q(3));
 }
 
 /// The rigid motion that minimises Σ w ‖target − (R source + t)‖². Metres.
@@ -62,7 +62,7 @@ inline std::optional<Pose> kabsch(span<const Vector3d> source, span<const Vector
     correlation += outer_product(weight(i) * (target[i] - target_centroid), source[i] - source_centroid);
   // Rounding leaves about 1e-16 of the squared distance to the origin: points nearer together than that coincide.
   const double rounding = 1e-14 * total * (source_centroid.squaredNorm() + target_centroid.squaredNorm());
-  if (!(correlation.lpNorm<Eigen::Infinity>() > rounding)) return std::nullopt;
+  if (!(largest_magnitude(correlation) > rounding)) return std::nullopt;
   const std::optional<Matrix3d> rotation = rotation_from_correlation(correlation);
   if (!rotation) return std::nullopt;
   return make_pose(*rotation, target_centroid - *rotation * source_centroid);

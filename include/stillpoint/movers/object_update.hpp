@@ -190,8 +190,7 @@ class ObjectUpdate {
     const FrameView& frame = features.frame;
     if (frame.depth.empty() || !(point.z() > kNearest_m)) return false;
     const Vector2d ideal = features.camera.project(point);
-    const Vector2f pixel =
-        DepthScale(frame.image(), frame.depth.image)(features.camera.distort(ideal).template cast<float>());
+    const Vector2f pixel = DepthScale(frame.image(), frame.depth.image)(to_float(features.camera.distort(ideal)));
     if (!(frame.depth.image.border_distance_px(pixel.x(), pixel.y()) >= 0.0f)) return false;
     const auto there_m = static_cast<double>(frame.depth.metres(rounded(pixel.x()), rounded(pixel.y())));
     return there_m > 0 && there_m < point.z() - kNearer_m;

@@ -74,8 +74,8 @@ class MaskPrediction {
         if (!matches.current.has_depth(i) || (seen.followed && !mover.has_rotation)) continue;
         const Vector3d next = mover.current_from_reference * matches.current.point[i];
         if (!(next.z() > 0)) continue;
-        const Vector2d step = camera.distort(camera.project(next)) - pixel_[i].cast<double>();
-        seen.velocity_px_s = (step / matches.elapsed_s).template cast<float>();
+        const Vector2d step = camera.distort(camera.project(next)) - to_double(pixel_[i]);
+        seen.velocity_px_s = to_float(step / matches.elapsed_s);
         seen.followed |= mover.has_rotation;
       }
     }

@@ -16,7 +16,7 @@ namespace stillpoint {
 inline bool is_rigid(const Pose& pose) {
   constexpr double kDrift = 0.01;  // of products of many rotations in single precision, far more than rounding
   const Matrix3d rotation = rotation_of(pose);
-  return is_finite(pose.matrix()) && rotation.lpNorm<Eigen::Infinity>() < 2.0 &&
+  return is_finite(pose.matrix()) && largest_magnitude(rotation) < 2.0 &&
          (transposed(rotation) * rotation - Matrix3d(Matrix3d::Identity())).norm() < kDrift &&
          rotation.determinant() > 0.0;  // no mirror
 }

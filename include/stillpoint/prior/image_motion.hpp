@@ -88,7 +88,7 @@ class ImageMotion {
     const Vector3d ray(static_cast<double>(from.x()), static_cast<double>(from.y()), 1);
     const Vector3d there = turn_ * ray + shift_ / depth_m;
     if (!(there.z() > 0)) return Vector2f::Zero();
-    return Vector2f(Vector2d(there.x() / there.z(), there.y() / there.z()).cast<float>()) - from;
+    return to_float(Vector2d(there.x() / there.z(), there.y() / there.z())) - from;
   }
 
  private:

@@ -82,8 +82,9 @@ class ReprojectionScore {
   /// What the pose's own uncertainty moves a pixel, the same in all directions: f² (σ_ω² + σ_v² / z²). An error that
   /// neighbours share moves the scored feature along with them: it is no disagreement.
   static double pose_variance_sq_px(const Motion& motion, double depth_m, double focal_px) noexcept {
-    const double rotation = motion.covariance.topLeftCorner<3, 3>().trace() / 3.0;
-    const double translation = motion.covariance.bottomRightCorner<3, 3>().trace() / 3.0;
+    const auto variance = [&](int axis) { return motion.covariance(axis, axis); };
+    const double rotation = (variance(0) + (variance(1) + variance(2))) / 3.0;
+    const double translation = (variance(3) + (variance(4) + variance(5))) / 3.0;
     return focal_px * focal_px * (rotation + translation / (depth_m * depth_m)) / motion.correlation;
   }
 
@@ -102,7 +103,7 @@ class ReprojectionScore {
   template <class Camera>
   static double squared_distance(const Vector3d& there, const Vector3d& translation, double spread,
                                  const Vector2f& found, double variance, const Camera& camera) {
-    const Vector2d error = camera.project(there) - Vector2d(found.cast<double>());
+    const Vector2d error = camera.project(there) - to_double(found);
     const EpipolarShift<double> shift(camera, translation, there.x(), there.y(), there.z(), there.x() / there.z(),
                                       there.y() / there.z(), spread / there.z());
     return ReprojectionInformation<double>(variance, shift).squared_distance(error.x(), error.y());
@@ -115,7 +116,7 @@ class ReprojectionScore {
     const Vector3d there = frame.reference_from_current * point;
     double evidence = 0;
     if (std::isfinite(observation.dissimilarity)) {
-      const double sigma = lens_stretch(camera, Vector2d(observation.found.cast<double>())) *
+      const double sigma = lens_stretch(camera, to_double(observation.found)) *
                            place_sigma_px(observation.dissimilarity, frame.elapsed_s, motion);
       const double variance = sigma * sigma + pose_variance_sq_px(motion, there.z(), camera.fx());
       const double spread = point.z() * matches.past_observations.inverse_depth_sigma[i];

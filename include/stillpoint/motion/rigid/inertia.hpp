@@ -56,8 +56,9 @@ struct Inertia {
   double weight(const Vector6d& expected, const Matrix6d& velocity, const Matrix6d& found) const {
     const Vector6d pull = velocity * expected;
     const Vector6d step = Cholesky<6>(found + velocity).solve(pull);
-    const double squared = pull.dot(expected - step) / kCorrelated;
-    return std::min(1.0, (kDegreesOfFreedom + 6.0) / (kDegreesOfFreedom + squared));
+    double squared = 0;
+    for (int i = 0; i < 6; ++i) squared += pull(i) * (expected(i) - step(i));
+    return std::min(1.0, (kDegreesOfFreedom + 6.0) / (kDegreesOfFreedom + squared / kCorrelated));
   }
 
   /// Of the predicted motion, in the same measure as that of correlated constraints. The velocity is that of the past,

@@ -127,9 +127,9 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
       equations.add(detail::in_frame(points, frame));
       equations.add(detail::in_frame(planes, frame));
       const Matrix6d adjoint = motion_of_older_points(poses[frame]);
-      const Matrix6d transposed = adjoint.transpose();
-      normal += transposed * equations.matrix() * adjoint;
-      gradient += transposed * equations.gradient();
+      const Matrix6d adjoint_transposed = transposed(adjoint);
+      normal += adjoint_transposed * equations.matrix() * adjoint;
+      gradient += adjoint_transposed * equations.gradient();
     }
     // What nothing is known of stays: a thousandth of a constraint holds it.
     constexpr double kHold = 1e-6;
@@ -140,7 +140,7 @@ Matrix6d refine_reprojection(span<const PointConstraint> points, span<const Plan
     const Pose back = inverted(make_pose(rotation_from_vector(turn), shift));
     for (Pose& pose : poses) pose = orthonormalized(composed(pose, back));
     information = normal;
-    settled_at = x.dot(normal * x) < detail::kNegligibleStep ? cutoff : 0;
+    settled_at = quadratic_form(normal, x) < detail::kNegligibleStep ? cutoff : 0;
   }
   return information;
 }

@@ -46,8 +46,7 @@ struct StationaryCamera {
     for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
       const Observation& observation = oldest->of_feature[i];
       if (observation.state != ObservationState::seen || !(observation.dissimilarity < 2.0f)) continue;
-      census.count((matches.current.undistorted[i] - Vector2d(observation.found.cast<double>())).norm(), observations,
-                   i);
+      census.count((matches.current.undistorted[i] - to_double(observation.found)).norm(), observations, i);
     }
     return census.empty() || stands(census, true);
   }
@@ -61,7 +60,7 @@ struct StationaryCamera {
   /// Of chained poses, which are rounded.
   static bool is_identity(const Pose& pose) {
     constexpr double kSame = 1e-9;
-    return translation_of(pose).norm() < kSame && (rotation_of(pose) - Matrix3d::Identity()).norm() < kSame;
+    return translation_of(pose).norm() < kSame && (rotation_of(pose) - Matrix3d(Matrix3d::Identity())).norm() < kSame;
   }
 
   struct Group {

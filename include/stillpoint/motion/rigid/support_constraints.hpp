@@ -67,7 +67,7 @@ struct SupportConstraints {
         if (speaks[i] == 0 || !matches.current.has_depth(i)) continue;
         if (observation.state != ObservationState::seen || !(observation.dissimilarity < kMostDissimilar)) continue;
         points[count++] =
-            at_depth(observations, i, observation.found.cast<double>(), static_cast<double>(observation.depth_m),
+            at_depth(observations, i, to_double(observation.found), static_cast<double>(observation.depth_m),
                      static_cast<double>(observation.depth_sigma_m), f);
       }
     }
