@@ -24,14 +24,27 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 /// Rigid motion, named `target_from_source`: maps points of source into target, metres.
 using Pose = Eigen::Isometry3d;
 
-inline Matrix3d rotation_of(const Pose& pose) { return pose.linear(); }
+// By elements, as in fixed_size_operators.hpp: Eigen's blocks of a matrix are types of their own.
 
-inline Vector3d translation_of(const Pose& pose) { return pose.translation(); }
+inline Matrix3d rotation_of(const Pose& pose) {
+  Matrix3d rotation;
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) rotation(row, column) = pose.matrix()(row, column);
+  return rotation;
+}
+
+inline Vector3d translation_of(const Pose& pose) {
+  const Eigen::Matrix4d& matrix = pose.matrix();
+  return {matrix(0, 3), matrix(1, 3), matrix(2, 3)};
+}
 
 inline Pose make_pose(const Matrix3d& rotation, const Vector3d& translation) {
   Pose pose = Pose::Identity();
-  pose.linear() = rotation;
-  pose.translation() = translation;
+  Eigen::Matrix4d& matrix = pose.matrix();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) matrix(row, column) = rotation(row, column);
+    matrix(row, 3) = translation(row);
+  }
   return pose;
 }
 

@@ -53,8 +53,8 @@ class TileMotion {
         pixel_per_plane_[i][j] = static_cast<float>(adjugate[i][j] / determinant);
       }
     for (int i = 0; i < 3; ++i) {
-      translation_m_[i] = static_cast<float>(motion.translation()(i));
-      for (int j = 0; j < 3; ++j) rotation_[i][j] = static_cast<float>(motion.linear()(i, j));
+      translation_m_[i] = static_cast<float>(motion.matrix()(i, 3));
+      for (int j = 0; j < 3; ++j) rotation_[i][j] = static_cast<float>(motion.matrix()(i, j));
     }
   }
 
