@@ -104,6 +104,9 @@ template <class P> struct is_camera<P, std::enable_if_t<
     detail::returns<int, decltype(std::declval<const P&>().width())> &&
     detail::returns<int, decltype(std::declval<const P&>().height())>>> : std::true_type {};
 
+template <class P, class = void> struct is_defined : std::false_type {};
+template <class P> struct is_defined<P, std::enable_if_t<(sizeof(P) > 0)>> : std::true_type {};
+
 template <class P, class = void> struct names_all_stages : std::false_type {};
 template <class P> struct names_all_stages<P, std::void_t<typename P::Camera, typename P::DepthNoise,
     typename P::DepthLookup, typename P::Prior, typename P::Matcher, typename P::EgoMotion, typename P::Scorer,
@@ -159,8 +162,11 @@ inline constexpr bool kHasMovers = !std::is_same_v<MoversOf<Policies>, NoMovers>
 /// Instantiated by `FrameFilter`: one readable error for each stage that does not keep its contract.
 template <class Policies>
 struct PolicyContract {
+  static_assert(is_defined<Policies>::value,
+                "stillpoint: these Policies are declared, but not defined: include their header, as policies.hpp for "
+                "PaperPolicies and MonocularPolicies, policies/with_movers.hpp for WithMovers");
   static_assert(
-      names_all_stages<Policies>::value,
+      !is_defined<Policies>::value || names_all_stages<Policies>::value,
       "stillpoint: Policies must name a type for each of Camera, DepthNoise, DepthLookup, Prior, Matcher, "
       "EgoMotion, Scorer, Gate, Classifier, Memory and KeepFloor; inherit from DefaultPolicies and name what is "
       "yours; see policies.hpp");
