@@ -22,7 +22,7 @@ class CompiledEngine : public FrameFilter<WithMovers<DefaultPolicies>> {
 template <class HostAbi>
 auto CompiledFilter<HostAbi>::create(const Camera& camera, bool has_movers) -> Engine* {
   auto* const engine = new Engine(camera);
-  engine->movers.is_on = has_movers;
+  engine->movers.is_enabled = has_movers;
   return engine;
 }
 

@@ -105,7 +105,7 @@ template <class P> struct is_camera<P, std::enable_if_t<
     detail::returns<int, decltype(std::declval<const P&>().height())>>> : std::true_type {};
 
 template <class P, class = void> struct is_defined : std::false_type {};
-template <class P> struct is_defined<P, std::enable_if_t<(sizeof(P) > 0)>> : std::true_type {};
+template <class P> struct is_defined<P, std::void_t<decltype(sizeof(P))>> : std::true_type {};
 
 template <class P, class = void> struct names_all_stages : std::false_type {};
 template <class P> struct names_all_stages<P, std::void_t<typename P::Camera, typename P::DepthNoise,

@@ -388,7 +388,8 @@ TEST_F(EvidenceMemoryTest, AfterSecondsAtRestTheDynamicPriorIsGone) {
     matches_.past_observations.surfaces[0].space_static_prior = space_static_prior;
     recall();
     EXPECT_NEAR(remembered_.static_prior[0], expected, kRounding) << occupied_views << " " << space_static_prior;
-    EXPECT_NEAR(remembered_.surface_static_prior[0], expected, kRounding) << occupied_views << " " << space_static_prior;
+    EXPECT_NEAR(remembered_.surface_static_prior[0], expected, kRounding)
+        << occupied_views << " " << space_static_prior;
   }
 }
 
