@@ -14,14 +14,6 @@ namespace stillpoint::bench {
 
 namespace detail {
 
-/// Only a prior that takes boxes gets them.
-template <class Prior>
-auto give_boxes(Prior& prior, const ClipFrame& frame, int) -> decltype(prior.detections = frame.detections, void()) {
-  prior.detections = frame.detections;
-}
-template <class Prior>
-void give_boxes(Prior&, const ClipFrame&, long) {}
-
 /// Only a matcher that takes tracks gets them.
 template <class Matcher>
 auto give_tracks(Matcher& matcher, const ClipFrame& frame, int)
@@ -48,7 +40,7 @@ class FilterRun {
   /// @param i  from 1, the frames in their order
   const FrameResult& filter(std::size_t i) {
     const ClipFrame& frame = clip_.frames[i];
-    detail::give_boxes(filter_.prior, frame, 0);
+    filter_.prior.detections = frame.detections;
     detail::give_tracks(filter_.matcher, frame, 0);
     return filter_.filter_frame(frame.view(), frame.keypoints);
   }

@@ -19,21 +19,26 @@ cmake --build build/trackers --target stillpoint_run >&2
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-# ate TRACKER SEQUENCE PRIOR: the five starts' ATE, filtered and unfiltered, metres, one pair a line.
+# ate TRACKER SEQUENCE PRIOR: the five starts' ATE, filtered and unfiltered, metres, one pair a line; "inf" where the report
+# has none, as the tracker was lost.
 ate() {
   local start
   for start in 0 1 2 3 4; do
     build/trackers/examples/stillpoint_run --tum "$data/$2" --prior "$3" --backend "$1" --start "$start" \
       --out "$work/out" --quiet > /dev/null
     awk -F '[:,]' '/"ate_rmse_m"/ { filtered = $2 } /"ate_rmse_unfiltered_m"/ { unfiltered = $2 }
-      END { print filtered + 0, unfiltered + 0 }' "$work/out/report.json"
+      function metres(ate) { return ate ~ /[0-9]/ ? ate + 0 : "inf" }
+      END { print metres(filtered), metres(unfiltered) }' "$work/out/report.json"
   done
 }
 # column N FILE: its median, least and greatest value.
 column() {
-  sort -g -k "$1,$1" "$2" | awk -v n="$1" '{ x[NR] = $n } END { printf "%.4f (%.4f to %.4f)", x[int((NR + 1) / 2)], x[1], x[NR] }'
+  sort -g -k "$1,$1" "$2" | awk -v n="$1" '
+    function metres(ate) { return ate == "inf" ? "lost" : sprintf("%.4f", ate) }
+    { x[NR] = $n }
+    END { printf "%s (%s to %s)", metres(x[int((NR + 1) / 2)]), metres(x[1]), metres(x[NR]) }'
 }
-ratio() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", (a + 0) / (b + 0) }'; }
+ratio() { awk -v a="$1" -v b="$2" 'BEGIN { if (a + 0 > 0 && b + 0 > 0) printf "%.2f", a / b; else printf "n/a" }'; }
 
 printf '| tracker | sequence | ATE filtered, m | ATE with the labels, m | ATE unfiltered, m | filtered by labels | filtered by unfiltered |\n'
 printf '|---|---|---|---|---|---|---|\n'

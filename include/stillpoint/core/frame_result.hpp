@@ -30,7 +30,7 @@ class FrameResult {
 
   /// Verdict, reason, cluster and probability of keypoint `i`.
   const Label& label(std::size_t i) const noexcept { return labels_[i]; }
-  [[deprecated("label(i)")]] const Label& verdict(std::size_t i) const noexcept { return labels_[i]; }
+  [[deprecated("label(i); gone in 0.4")]] const Label& verdict(std::size_t i) const noexcept { return labels_[i]; }
   const FeatureScore& score(std::size_t i) const noexcept { return scores_[i]; }
   /// That the filter used, metres, 0 where there is none: moved where depth is late (DepthDelay), carried over from the
   /// last frames where the depth image has a hole (HoleFilling).

@@ -95,7 +95,7 @@ class PropagatedPrior : public ForegroundPrior {
 
   /// What is known of objects in the frame that came last.
   span<const CarriedDetection> objects() const noexcept { return objects_; }
-  [[deprecated("objects()")]] span<const CarriedDetection> things() const noexcept { return objects_; }
+  [[deprecated("objects(); gone in 0.4")]] span<const CarriedDetection> things() const noexcept { return objects_; }
 
   /// Forgets objects and frames; `detections` stay, they are of the coming frame.
   void reset() noexcept {

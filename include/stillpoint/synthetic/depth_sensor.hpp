@@ -79,9 +79,6 @@ class DepthSensor {
     }
   }
 
-  /// Depth between two neighbouring disparities at a depth, metres.
-  static double disparity_step(double depth_m) noexcept { return depth_m * depth_m / (8.0 * 580.0 * 0.075); }
-
  private:
   /// What counts as an edge between two surfaces, metres.
   static float jump(float depth_m) noexcept { return 0.06f + 0.02f * depth_m; }

@@ -36,8 +36,9 @@ class SyntheticSequence {
         sample_width_(0.5f * kLensBlur * static_cast<float>(1.0 / scene_.camera.fx())) {
     if (scene_.frame_count < 1)
       throw Error("scene: frame_count is " + std::to_string(scene_.frame_count) + ", expected at least 1");
-    if (!(scene_.frame_rate_hz > 0))
-      throw Error("scene: frame_rate_hz is " + std::to_string(scene_.frame_rate_hz) + ", expected more than 0");
+    if (!(scene_.frame_rate_hz > 0) || !std::isfinite(scene_.frame_rate_hz))
+      throw Error("scene: frame_rate_hz is " + std::to_string(scene_.frame_rate_hz) +
+                  ", expected a finite number above 0");
     if (scene_.motion_rule.window_frames < 1)
       throw Error("scene: motion_rule.window_frames is " + std::to_string(scene_.motion_rule.window_frames) +
                   ", expected at least 1");

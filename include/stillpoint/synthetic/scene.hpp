@@ -52,9 +52,8 @@ struct Solid {
 struct Joint {
   Vector3d pivot = Vector3d::Zero();  ///< in the mover's frame
   Vector3d axis = Vector3d::UnitX();
-  double stride_rad = 0.0;    ///< swing to either side while the mover walks
-  double stride_phase = 0.0;  ///< radians
-  double wave_rad = 0.0;      ///< swing to either side by the clock, between wave_start_s and wave_end_s
+  double stride_rad = 0.0;  ///< swing to either side while the mover walks
+  double wave_rad = 0.0;    ///< swing to either side by the clock, between wave_start_s and wave_end_s
   double wave_hz = 1.0;
   double wave_start_s = 0.0;
   double wave_end_s = 0.0;
@@ -63,7 +62,7 @@ struct Joint {
 
   double angle(double time_s, double distance_m) const {
     constexpr double kTurn = 6.283185307179586;
-    double radians = stride_rad * std::sin(kTurn * distance_m / kStrideLength + stride_phase);
+    double radians = stride_rad * std::sin(kTurn * distance_m / kStrideLength);
     if (time_s > wave_start_s && time_s < wave_end_s)
       radians += wave_rad * std::sin(kTurn * wave_hz * (time_s - wave_start_s));
     return radians;

@@ -29,12 +29,22 @@ struct SceneOptions {
 
 namespace detail {
 
-/// The room with a camera of 62 degrees across; no mover.
-/// @throws Error unless the size is at least 16 pixels a side.
-inline Scene stage(const char* name, const SceneOptions& options) {
+/// @throws Error unless the size is at least 16 pixels a side, and frames and their rate are at least one and more than
+/// 0.
+inline void require(const SceneOptions& options) {
   if (options.width < 16 || options.height < 16)
     throw Error("scene: size is " + std::to_string(options.width) + " x " + std::to_string(options.height) +
                 ", expected at least 16 x 16 pixels");
+  if (options.frames < 1) throw Error("scene: frames is " + std::to_string(options.frames) + ", expected at least 1");
+  if (!(options.frame_rate_hz > 0) || !std::isfinite(options.frame_rate_hz))
+    throw Error("scene: frame_rate_hz is " + std::to_string(options.frame_rate_hz) +
+                ", expected a finite number above 0");
+}
+
+/// The room with a camera of 62 degrees across; no mover.
+/// @throws Error as `require`
+inline Scene stage(const char* name, const SceneOptions& options) {
+  require(options);
   const double focal_px = 525.0 * options.width / 640.0;
   Scene scene;
   scene.name = name;

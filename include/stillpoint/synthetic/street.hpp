@@ -152,12 +152,11 @@ inline Path drive(const Centreline& middle, double length_m, double metres_per_s
 /// measure: noise of `StereoNoise`, none where the right camera does not see the surface. For depth by block matching
 /// render `right_of(scene, kCarBaseline_m)`, too, and hand both images to `StereoDepth` (nearest_m 4).
 /// @param bend_radius_m  after 10 m the street goes through a right angle with this radius; 0: straight on
-/// @throws Error unless the size is at least 16 pixels a side.
+/// @throws Error unless the size is at least 16 pixels a side, and frames and their rate are at least one and more than
+/// 0.
 inline Scene street_from_car(const SceneOptions& options = car_options(), double bend_radius_m = 0.0) {
   constexpr double kSpeed_m_per_s = 10.0, kEye_m = 1.65, kLeastDisparity_px = 2.0;
-  if (options.width < 16 || options.height < 16)
-    throw Error("scene: size is " + std::to_string(options.width) + " x " + std::to_string(options.height) +
-                ", expected at least 16 x 16 pixels");
+  detail::require(options);
   const double focal_px = 720.0 * options.width / 1240.0, seconds = options.frames / options.frame_rate_hz;
   const double length_m = kSpeed_m_per_s * seconds;
   Scene scene;

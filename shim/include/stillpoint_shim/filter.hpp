@@ -96,7 +96,7 @@ class Filter {
 
   /// What an IMU or wheels say of the coming motion; holds for the next frame.
   /// @param current_from_reference  4 x 4, row by row, metres: from the camera of the last frame to that of the next
-  /// @return                        false if it is no rigid motion; then it is not taken
+  /// @return                        false if it is no rigid motion, or is longer than 100 m; then it is not taken
   bool expect_motion(const double (&current_from_reference)[16]) {
     return detail::expect_motion(*engine_, current_from_reference);
   }

@@ -9,12 +9,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
+#include <string>
 #include <vector>
 
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/stereo/stereo_depth.hpp"
+#include "stillpoint/synthetic/realistic_scenes.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/stereo.hpp"
 #include "stillpoint/synthetic/truth.hpp"
@@ -42,6 +45,21 @@ TEST(StreetFromCar, HasTheCameraOfTheDescription) {
   EXPECT_EQ(scene.frame_rate_hz, 10.0);
   full.width = 8;
   EXPECT_EQ(error_of([&] { street_from_car(full); }), "scene: size is 8 x 376, expected at least 16 x 16 pixels");
+}
+
+// 5 frames at 0 Hz are a street without an end: no memory is enough for its houses.
+TEST(StreetFromCar, FramesAndTheirRateAreChecked) {
+  for (const double rate_hz : {0.0, -10.0, std::numeric_limits<double>::infinity()}) {
+    SceneOptions options;
+    options.frame_rate_hz = rate_hz;
+    EXPECT_EQ(error_of([&] { street_from_car(options); }),
+              "scene: frame_rate_hz is " + std::to_string(rate_hz) + ", expected a finite number above 0");
+    EXPECT_EQ(error_of([&] { five_people(options); }),
+              "scene: frame_rate_hz is " + std::to_string(rate_hz) + ", expected a finite number above 0");
+  }
+  SceneOptions none;
+  none.frames = 0;
+  EXPECT_EQ(error_of([&] { street_from_car(none); }), "scene: frames is 0, expected at least 1");
 }
 
 TEST(StreetFromCar, GoesOneMetrePerFrame) {
