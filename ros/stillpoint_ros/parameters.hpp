@@ -4,8 +4,10 @@
 
 // Options from parameters: the names of the one table (stillpoint/core/options.hpp), with dots between the groups.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -48,8 +50,13 @@ class ParameterReader {
   }
   template <class T>
   void seed(const char* name, T& value) {
+    constexpr std::uint64_t kMost = std::min<std::uint64_t>(std::numeric_limits<T>::max(), INT64_MAX);
     const std::int64_t found = get(name, static_cast<std::int64_t>(value));
-    if (found != static_cast<std::int64_t>(value)) value = static_cast<T>(found);
+    // What nobody set stays: a seed above 2^63 - 1 comes back negative.
+    if (found == static_cast<std::int64_t>(value)) return;
+    if (found < 0 || static_cast<std::uint64_t>(found) > kMost)
+      fail(name, stillpoint::option_text(found), "a whole number from 0 to " + std::to_string(kMost));
+    value = static_cast<T>(found);
   }
   template <class T, class... Words>
   void choice(const char* name, T& value, Words... words) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <string>
 #include <variant>
@@ -86,6 +87,38 @@ TEST(Parameters, WhatIsOutOfItsRangeIsNamed) {
   EXPECT_EQ(error("count", std::int64_t{11}), "parameter count is 11, expected a whole number from 1 to 10");
   EXPECT_EQ(error("group.share", -0.5), "parameter group.share is -0.5, expected a number from 0 to 1");
   EXPECT_EQ(error("colour", std::string("blue")), "parameter colour is 'blue', expected red or green");
+}
+
+struct Seeds {
+  std::uint64_t large = std::numeric_limits<std::uint64_t>::max();
+  std::uint32_t small = 7;
+};
+template <class Visit>
+void each_option(Seeds& seeds, Visit& visit) {
+  visit.seed("large", seeds.large);
+  visit.seed("small", seeds.small);
+}
+
+TEST(Parameters, ASeedThatItsTypeCannotHoldIsNamed) {
+  const auto error = [](const char* name, std::int64_t value) {
+    Seeds seeds;
+    Given given{{{name, value}}};
+    return stillpoint::error_of([&] { read_parameters(seeds, given); });
+  };
+  EXPECT_EQ(error("large", -2), "parameter large is -2, expected a whole number from 0 to 9223372036854775807");
+  EXPECT_EQ(error("small", -1), "parameter small is -1, expected a whole number from 0 to 4294967295");
+  EXPECT_EQ(error("small", 4294967296), "parameter small is 4294967296, expected a whole number from 0 to 4294967295");
+}
+
+TEST(Parameters, ASeedAboveWhatAParameterHoldsStaysWhereNothingIsGiven) {
+  Seeds seeds;
+  Given nothing;
+  read_parameters(seeds, nothing);
+  EXPECT_EQ(seeds.large, std::numeric_limits<std::uint64_t>::max());
+  Given largest{{{"large", std::numeric_limits<std::int64_t>::max()}, {"small", std::int64_t{4294967295}}}};
+  read_parameters(seeds, largest);
+  EXPECT_EQ(seeds.large, std::uint64_t{9223372036854775807});
+  EXPECT_EQ(seeds.small, 4294967295u);
 }
 
 TEST(Parameters, AMisspelledOneIsFound) {
