@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
-#include "stillpoint/core/options.hpp"
+#include "stillpoint/io/frame_rate.hpp"
 #include "stillpoint/io/number_format.hpp"
 #include "stillpoint/io/stereo_images.hpp"
 
@@ -118,13 +118,11 @@ inline std::vector<std::filesystem::path> image_files(const std::filesystem::pat
 /// @param frame_rate_hz  images per second. Without: the names' times where all have one, else `kAssumedFrameRate_hz`.
 ///                       Times by a rate begin at 0.
 /// @return        at least one image, times rising.
-/// @throws Error if the folder is missing or holds no image, the rate is not positive, or two names tell the same time
-///         and no rate is given.
+/// @throws Error if the folder is missing or holds no image, the rate is not positive and finite, or two names tell the
+///         same time and no rate is given.
 inline ImageList read_image_folder(const std::filesystem::path& folder,
                                    std::optional<double> frame_rate_hz = std::nullopt) {
-  if (frame_rate_hz && !(*frame_rate_hz > 0))
-    throw Error("frame rate: found " + option_text(*frame_rate_hz) +
-                ", expected a positive number of images per second");
+  if (frame_rate_hz) detail::require_frame_rate(*frame_rate_hz);
   ImageList list;
   bool names_tell = true;
   for (const std::filesystem::path& file : detail::image_files(folder)) {

@@ -18,7 +18,7 @@
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
-#include "stillpoint/core/options.hpp"
+#include "stillpoint/io/frame_rate.hpp"
 #include "stillpoint/io/whole_video.hpp"
 
 namespace stillpoint {
@@ -30,7 +30,7 @@ class VideoSource {
   /// Opens a file.
   /// @param frame_rate_hz  frames per second. Without: each frame's own time, as the file has it.
   /// @throws Error if the file is missing, breaks off (AVI, MP4 and Matroska tell), is no video that OpenCV reads, or
-  ///         holds no frame; if the rate is not positive.
+  ///         holds no frame; if the rate is not positive and finite.
   explicit VideoSource(const std::filesystem::path& file, std::optional<double> frame_rate_hz = std::nullopt)
       : name_(file.string()), given_rate_hz_(frame_rate_hz) {
     std::error_code ignored;
@@ -82,9 +82,7 @@ class VideoSource {
 
   template <class Open>
   void open(Open&& open_capture, const char* expected) {
-    if (given_rate_hz_ && !(*given_rate_hz_ > 0))
-      throw Error("frame rate: found " + option_text(*given_rate_hz_) +
-                  ", expected a positive number of images per second");
+    if (given_rate_hz_) detail::require_frame_rate(*given_rate_hz_);
     bool is_open = false;
     try {
       is_open = open_capture() && grab(first_);

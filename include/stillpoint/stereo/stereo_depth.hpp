@@ -50,10 +50,10 @@ class StereoDepth {
     require(baseline_m > 0 && std::isfinite(baseline_m), "baseline_m", baseline_m, "a positive number of metres");
     require(options.nearest_m > 0 && std::isfinite(options.nearest_m), "nearest_m", options.nearest_m,
             "a positive number of metres");
-    require(options.least_disparity_px > 0, "least_disparity_px", options.least_disparity_px,
-            "a positive number of pixels");
-    require(options.disparity_sigma_px > 0, "disparity_sigma_px", options.disparity_sigma_px,
-            "a positive number of pixels");
+    require(options.least_disparity_px > 0 && std::isfinite(options.least_disparity_px), "least_disparity_px",
+            options.least_disparity_px, "a positive number of pixels");
+    require(options.disparity_sigma_px > 0 && std::isfinite(options.disparity_sigma_px), "disparity_sigma_px",
+            options.disparity_sigma_px, "a positive number of pixels");
     require(options.block_px >= 1 && options.block_px <= kLargestBlock_px && options.block_px % 2 == 1, "block_px",
             options.block_px, "an odd number of pixels from 1 to " + std::to_string(kLargestBlock_px));
     require(options.left_right_px >= 0, "left_right_px", options.left_right_px, "0 or more pixels");

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -135,6 +136,8 @@ TEST_F(ImageFolderTest, ARateOfTheCallersGoesBeforeNames) {
   EXPECT_EQ(list.images[1].timestamp_s, 0.25);
   EXPECT_EQ(error_of([&] { read_image_folder(left, 0.0); }),
             "frame rate: found 0, expected a positive number of images per second");
+  EXPECT_EQ(error_of([&] { read_image_folder(left, std::numeric_limits<double>::infinity()); }),
+            "frame rate: found inf, expected a positive number of images per second");
 }
 
 TEST_F(ImageFolderTest, WhatIsNoFolderOfImagesIsNamed) {

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,8 @@ TEST_F(VideoSourceTest, ARateOfTheCallersGoesBeforeTheFiles) {
   }
   EXPECT_EQ(error_of([&] { VideoSource(folder.path() / "video.avi", -1.0); }),
             "frame rate: found -1, expected a positive number of images per second");
+  EXPECT_EQ(error_of([&] { VideoSource(folder.path() / "video.avi", std::numeric_limits<double>::infinity()); }),
+            "frame rate: found inf, expected a positive number of images per second");
 }
 
 TEST_F(VideoSourceTest, AVideoThatBreaksOffIsNamed) {

@@ -243,6 +243,14 @@ TEST(StereoDepth, MatchingOptionsHaveRanges) {
   options.nearest_m = std::numeric_limits<double>::infinity();  // no disparity would be tried
   EXPECT_EQ(error_of([&] { StereoDepth(camera(), kBaseline_m, options); }),
             "stereo: nearest_m is inf, expected a positive number of metres");
+  options = {};
+  options.least_disparity_px = std::numeric_limits<double>::infinity();  // no depth at all
+  EXPECT_EQ(error_of([&] { StereoDepth(camera(), kBaseline_m, options); }),
+            "stereo: least_disparity_px is inf, expected a positive number of pixels");
+  options = {};
+  options.disparity_sigma_px = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(error_of([&] { StereoDepth(camera(), kBaseline_m, options); }),
+            "stereo: disparity_sigma_px is inf, expected a positive number of pixels");
 }
 
 TEST(StereoDepth, ImagesThatAreNoPairAreNamed) {
