@@ -20,19 +20,19 @@ namespace stillpoint {
 /// Writes to a temporary file beside the target ("report.json.partial0") and gives it the target's name on `commit()`.
 /// A process that dies, or an error on the way, leaves the target as it was: missing, or the old file. (The file is not
 /// forced to the disk: this does not guard against a power cut.) Without `commit()` the destructor removes what was
-/// written. Of a symbolic link, the file that it names is written.
+/// written. Of a symbolic link, the file that it names is written, and made where it is missing.
 class AtomicFile {
  public:
-  /// @throws Error if no file can be made in the target's folder, or the target is a folder, a device or a pipe.
+  /// @throws Error if no file can be made in the target's folder, or the target is a folder, a device, a pipe or a
+  ///         circle of links.
   explicit AtomicFile(std::filesystem::path target) : target_(std::move(target)) {
     std::error_code ignored;
     if (std::filesystem::is_directory(target_, ignored))
       throw Error(target_.string() + ": found a folder, expected a file to write");
-    if (std::filesystem::exists(target_, ignored)) {  // a rename would replace what is no file, and a link
-      if (!std::filesystem::is_regular_file(target_, ignored))
-        throw Error(target_.string() + ": found a device or a pipe, expected a file to write");
-      if (std::filesystem::is_symlink(target_, ignored)) target_ = std::filesystem::canonical(target_);
-    }
+    // A rename would replace what is no file, and a link.
+    if (std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored))
+      throw Error(target_.string() + ": found a device or a pipe, expected a file to write");
+    follow_links();
     // A file that exists may belong to another process, so it is never opened: the next number is tried.
     for (std::size_t attempt = 0; file_ == nullptr; ++attempt) {
       temporary_ = target_;
@@ -85,6 +85,20 @@ class AtomicFile {
   }
 
  private:
+  /// Link by link: std::filesystem's functions do not resolve one whose file is not there yet.
+  void follow_links() {
+    constexpr int kMostLinks = 40;  // as Linux has it
+    std::filesystem::path file = target_;
+    std::error_code error;
+    for (int links = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(file, error)); ++links) {
+      const std::filesystem::path named = std::filesystem::read_symlink(file, error);
+      if (error || links == kMostLinks)
+        throw Error(target_.string() + ": found a symbolic link that leads to no file, expected a file to write");
+      file = file.parent_path() / named;
+    }
+    target_ = std::move(file);
+  }
+
   void require_open() const {
     if (file_ == nullptr) throw Error(target_.string() + ": is finished already, expected no further writing");
   }

@@ -82,6 +82,31 @@ TEST(AtomicFile, WritesThroughASymbolicLink) {
   EXPECT_EQ(folder.count_files(), 2);
 }
 
+TEST(AtomicFile, MakesTheFileThatASymbolicLinkNames) {
+  const TemporaryFolder folder;
+  const auto real = folder.path() / "below" / "real.txt", link = folder.path() / "link.txt";
+  std::filesystem::create_directory(folder.path() / "below");
+  std::filesystem::create_symlink("below/next.txt", link);
+  std::filesystem::create_symlink("real.txt", folder.path() / "below" / "next.txt");
+  AtomicFile file(link);
+  file.write("new");
+  file.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path() / "below" / "next.txt"));
+  ASSERT_TRUE(std::filesystem::exists(real));
+  EXPECT_EQ(TemporaryFolder::read(real), "new");
+}
+
+TEST(AtomicFile, SymbolicLinksInACircleAreNamed) {
+  const TemporaryFolder folder;
+  const auto link = folder.path() / "link.txt";
+  std::filesystem::create_symlink("other.txt", link);
+  std::filesystem::create_symlink("link.txt", folder.path() / "other.txt");
+  EXPECT_EQ(error_of([&] { AtomicFile file(link); }),
+            link.string() + ": found a symbolic link that leads to no file, expected a file to write");
+  EXPECT_TRUE(std::filesystem::is_symlink(link));
+}
+
 #if defined(__unix__)
 TEST(AtomicFile, APipeIsNoFileToReplace) {
   const TemporaryFolder folder;
