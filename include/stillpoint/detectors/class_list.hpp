@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/regular_file.hpp"
 
 namespace stillpoint {
 
@@ -99,11 +100,7 @@ class ClassList {
   /// not count.
   /// @throws Error naming file and line if it can't be read, has no name, or a blank line between names.
   static ClassList read(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) throw Error(file.string() + ": no such file");
-    if (std::filesystem::is_directory(file, ignored)) throw Error(file.string() + ": found a folder, expected a file");
-    if (!std::filesystem::is_regular_file(file, ignored))
-      throw Error(file.string() + ": found a pipe or a device, expected a file");
+    detail::require_regular_file(file, "a file");
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(file.string() + ": cannot be read");
     std::vector<std::string> names;

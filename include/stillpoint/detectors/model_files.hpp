@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/regular_file.hpp"
 
 namespace stillpoint {
 
@@ -20,20 +21,12 @@ struct ModelFiles {
   std::filesystem::path config;  ///< empty where there is none
 };
 
-namespace detail {
-inline void require_file(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) throw Error(file.string() + ": no such file");
-  if (std::filesystem::is_directory(file, ignored)) throw Error(file.string() + ": found a folder, expected a model");
-}
-}  // namespace detail
-
 /// Either of two files may be given; the other is looked for beside it, under the same name: .weights and .cfg
 /// (Darknet), .caffemodel and .prototxt (Caffe), .bin and .xml (OpenVINO), .pb and .pbtxt (TensorFlow, where the second
 /// is optional). .onnx is one file.
-/// @throws Error naming the file that is not there, or an ending that is not known.
+/// @throws Error naming the file that is not there or is none, or an ending that is not known.
 inline ModelFiles find_model_files(const std::filesystem::path& file, std::filesystem::path config = {}) {
-  detail::require_file(file);
+  detail::require_regular_file(file, "a model");
   const std::string ending = file.extension().string();
   constexpr std::array<std::pair<const char*, const char*>, 4> kPairs = {
       {{".weights", ".cfg"}, {".caffemodel", ".prototxt"}, {".bin", ".xml"}, {".pb", ".pbtxt"}}};
@@ -46,7 +39,7 @@ inline ModelFiles find_model_files(const std::filesystem::path& file, std::files
       std::error_code ignored;
       if (optional && !std::filesystem::exists(config, ignored)) return {file, {}};
     }
-    detail::require_file(config);
+    detail::require_regular_file(config, "a model");
     return ending == weights ? ModelFiles{file, config} : ModelFiles{config, file};
   }
   if (ending != ".onnx")

@@ -19,6 +19,7 @@
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/image.hpp"
 #include "stillpoint/core/regions.hpp"
+#include "stillpoint/core/regular_file.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/detectors/detector_options.hpp"
 #include "stillpoint/detectors/drop_duplicates.hpp"
@@ -44,7 +45,7 @@ class OnnxRuntimeDetector {
   /// input size can neither be told nor agree with what was set.
   OnnxRuntimeDetector(const std::filesystem::path& model, const Options& options)
       : name_(require_library(model)), highest_overlap_(options.highest_overlap) {
-    detail::require_file(model);
+    detail::require_regular_file(model, "a model");
     guarded("read", [&] { open(model, options); });
     InputSize size;
     guarded("take", [&] {

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/core/regular_file.hpp"
 
 namespace stillpoint {
 
@@ -20,11 +21,8 @@ namespace stillpoint {
 inline std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t kLargest_bytes = 1'000'000'000;  // a day of frames at 30 Hz takes a third
   const std::string name = file.string();
+  detail::require_regular_file(file, "a file");
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw Error(name + ": no such file");
-  if (std::filesystem::is_directory(status)) throw Error(name + ": found a folder, expected a file");
-  if (!std::filesystem::is_regular_file(status)) throw Error(name + ": found a pipe or a device, expected a file");
   if (std::filesystem::file_size(file, error) > kLargest_bytes || error)
     throw Error(name + ": " + (error ? "cannot be read" : "is larger than 1 GB, expected a text file"));
   std::ifstream stream(file, std::ios::binary);

@@ -10,10 +10,10 @@
 #include <fstream>
 #include <optional>
 #include <string>
-#include <system_error>
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/core/regular_file.hpp"
 #include "stillpoint/io/yaml_tree.hpp"
 
 namespace stillpoint {
@@ -90,9 +90,7 @@ class YamlFile {
   }
 
   static std::string read(const std::filesystem::path& file) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) throw Error(file.string() + ": no such file");
-    if (!std::filesystem::is_regular_file(file, ignored)) throw Error(file.string() + ": expected a file");
+    detail::require_regular_file(file, "a file");
     std::ifstream stream(file, std::ios::binary);
     std::string text(kLargestBytes + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));

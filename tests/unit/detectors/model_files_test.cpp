@@ -13,6 +13,10 @@
 #include "unit/detectors/made_tensor.hpp"
 #include "unit/temporary_folder.hpp"
 
+#if defined(__unix__)
+#include <sys/stat.h>
+#endif
+
 namespace stillpoint {
 namespace {
 
@@ -48,6 +52,19 @@ TEST(ModelFiles, ErrorsNameTheFile) {
   expect_contains(error_of([&] { find_model_files(here / "net.tflite"); }),
                   "found the ending '.tflite', expected .onnx");
 }
+
+#if defined(__unix__)
+TEST(ModelFiles, APipeIsNoModel) {  // reading it would wait for ever
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "net.onnx", half = folder.path() / "net.cfg";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  ASSERT_EQ(mkfifo(half.c_str(), 0600), 0);
+  write(folder.path() / "net.weights", "");
+  EXPECT_EQ(error_of([&] { find_model_files(pipe); }), pipe.string() + ": found a pipe or a device, expected a model");
+  EXPECT_EQ(error_of([&] { find_model_files(folder.path() / "net.weights"); }),
+            half.string() + ": found a pipe or a device, expected a model");
+}
+#endif
 
 TEST(ModelInputSize, DarknetSaysItInItsFirstSection) {
   const TemporaryFolder folder;

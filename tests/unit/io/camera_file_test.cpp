@@ -218,7 +218,8 @@ TEST(ReadCamera, MissingFileAndFolderAreNamed) {
   const TemporaryFolder folder;
   const auto missing = folder.path() / "camera.yaml";
   EXPECT_EQ(error_of([&] { read_camera(missing); }), missing.string() + ": no such file");
-  EXPECT_EQ(error_of([&] { read_camera(folder.path()); }), folder.path().string() + ": expected a file");
+  EXPECT_EQ(error_of([&] { read_camera(folder.path()); }),
+            folder.path().string() + ": found a folder, expected a file");
 }
 
 TEST(CameraOfTumFolder, IsToldByTheName) {
