@@ -4,13 +4,15 @@
 
 // How large an image does a network want? Its file says so, but OpenCV does not hand it on.
 
+#include <charconv>
+#include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <ios>
 #include <limits>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "stillpoint/core/error.hpp"
@@ -107,6 +109,20 @@ inline std::vector<int> onnx_shape(const ProtobufFields& value_info, std::string
   return shape;
 }
 
+inline constexpr int kLargestInput_px = 8192;
+
+/// Reads a line "width=320" or "height=192" without blanks, perhaps with a comment after it; leaves others alone.
+/// @throws Error if it is no whole number that an int holds.
+inline void read_darknet_size(const std::string& line, const std::string& name, const std::string& where, int& size) {
+  if (line.compare(0, name.size() + 1, name + '=') != 0) return;
+  const std::string value = line.substr(name.size() + 1, line.find('#') - name.size() - 1);
+  const char* const end = value.data() + value.size();
+  const auto read = std::from_chars(value.data(), end, size);
+  if (read.ec != std::errc() || read.ptr != end)
+    throw Error(where + ": " + name + " is '" + value + "', expected a whole number of pixels from 1 to " +
+                std::to_string(kLargestInput_px));
+}
+
 }  // namespace detail
 
 /// Size of the first input 1x3xHxW of an ONNX file (onnx.proto: ModelProto.graph 7, GraphProto.input 11); zeros where
@@ -130,7 +146,7 @@ inline InputSize onnx_input_size(const std::filesystem::path& file) {
 
 /// @throws Error naming the model, if neither its file nor the user has told a size, or it is absurd.
 inline void require_input_size(const InputSize& size, const std::string& model) {
-  constexpr int kLargest = 8192;
+  constexpr int kLargest = detail::kLargestInput_px;
   if (size.width == 0 || size.height == 0)
     throw Error(model + ": the file does not say how large an input the network wants: set the input size");
   if (size.width < 1 || size.height < 1 || size.width > kLargest || size.height > kLargest)
@@ -139,15 +155,18 @@ inline void require_input_size(const InputSize& size, const std::string& model) 
 }
 
 /// `width` and `height` of a Darknet .cfg; zeros where it has none.
+/// @throws Error naming the line whose width or height is no whole number.
 inline InputSize darknet_input_size(const std::filesystem::path& file) {
   InputSize size;
   std::ifstream stream(file);
+  std::size_t number = 0;
   for (std::string line; std::getline(stream, line);) {
+    const std::string where = file.string() + ':' + std::to_string(++number);
     std::string packed;
     for (const char c : line)
       if (c != ' ' && c != '\t' && c != '\r') packed += c;
-    if (packed.compare(0, 6, "width=") == 0 && size.width == 0) size.width = std::atoi(packed.c_str() + 6);
-    if (packed.compare(0, 7, "height=") == 0 && size.height == 0) size.height = std::atoi(packed.c_str() + 7);
+    if (size.width == 0) detail::read_darknet_size(packed, "width", where, size.width);
+    if (size.height == 0) detail::read_darknet_size(packed, "height", where, size.height);
     if (!packed.empty() && packed[0] == '[' && packed != "[net]" && packed != "[network]") break;
   }
   return size;

@@ -75,6 +75,21 @@ TEST(ModelInputSize, DarknetSaysItInItsFirstSection) {
   EXPECT_EQ(darknet_input_size("/no/such.cfg").width, 0);
 }
 
+TEST(ModelInputSize, WhatIsNoNumberInADarknetFileIsNamed) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.path() / "net.cfg";
+  const auto error = [&](const std::string& line) {
+    write(file, "[net]\n" + line + "\n");
+    return error_of([&] { darknet_input_size(file); });
+  };
+  const std::string expected = ", expected a whole number of pixels from 1 to 8192";
+  EXPECT_EQ(error("width=99999999999"), file.string() + ":2: width is '99999999999'" + expected);
+  EXPECT_EQ(error("height = abc"), file.string() + ":2: height is 'abc'" + expected);
+  EXPECT_EQ(error("width=320.5"), file.string() + ":2: width is '320.5'" + expected);
+  EXPECT_EQ(error("width="), file.string() + ":2: width is ''" + expected);
+  EXPECT_EQ(error("width=320 # of the camera"), "no error");
+}
+
 /// A field of protobuf: number and bytes.
 std::string field(int number, const std::string& bytes) {
   std::string result(1, static_cast<char>(number << 3 | 2));
