@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <opencv2/core/version.hpp>
 #include <opencv2/dnn.hpp>
@@ -51,12 +52,10 @@ class OpenCvDetector {
     });
     choose_outputs(options.outputs);
     const std::vector<float> nothing(3 * static_cast<std::size_t>(size.width) * static_cast<std::size_t>(size.height));
-    run(nothing, size);
-    try {
+    guarded("run", [&] {
+      run(nothing, size);
       decoder_ = NetworkDecoder(options, size, tensors_);
-    } catch (const Error& error) {
-      throw Error(name_ + ": " + error.what());
-    }
+    });
     input_ = NetworkInput(size, options.preprocess ? *options.preprocess : usual_preprocess(decoder_.layout()));
     highest_overlap_ = options.highest_overlap;
   }
@@ -73,8 +72,10 @@ class OpenCvDetector {
   void detect(const ImageView& image, std::vector<Detection>& detections) {
     detections.clear();
     const Letterbox letterbox = input_.fill(image);
-    run(input_.values(), input_.size());
-    decoder_.decode(tensors_, found_);
+    guarded("run", [&] {
+      run(input_.values(), input_.size());
+      decoder_.decode(tensors_, found_);
+    });
     if (leaves_duplicates(decoder_.layout())) drop_duplicates(found_, highest_overlap_);
     decoder_.finish(tensors_, letterbox, found_, detections);
   }
@@ -119,11 +120,9 @@ class OpenCvDetector {
   }
 
   void run(const std::vector<float>& values, const InputSize& size) {
-    guarded("run", [&] {
-      const int extents[] = {1, 3, size.height, size.width};
-      network_.setInput(cv::Mat(4, extents, CV_32F, const_cast<float*>(values.data())));
-      network_.forward(results_, output_names_);
-    });
+    const int extents[] = {1, 3, size.height, size.width};
+    network_.setInput(cv::Mat(4, extents, CV_32F, const_cast<float*>(values.data())));
+    network_.forward(results_, output_names_);
     tensors_.clear();
     for (cv::Mat& result : results_) {
       const bool whole_numbers = result.depth() < CV_32F;
@@ -134,11 +133,13 @@ class OpenCvDetector {
     }
   }
 
-  /// OpenCV's own exceptions as ours, on one line, with the file's name.
+  /// OpenCV's own exceptions as ours, on one line, and the file's name before ours.
   template <class Action>
   void guarded(const char* what, Action&& action) const {
     try {
       action();
+    } catch (const Error& error) {
+      throw Error(name_ + ": " + error.what());
     } catch (const std::exception& exception) {
       std::string reason = exception.what();
       std::replace(reason.begin(), reason.end(), '\n', ' ');

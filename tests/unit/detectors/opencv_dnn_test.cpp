@@ -8,6 +8,7 @@
 #include <string>
 
 #include "unit/detectors/detector_contract.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 
@@ -35,6 +36,19 @@ TEST_F(OpenCvDetectorTest, ABackendThatIsNotThereIsSaidAtConstruction) {
   options.backend = cv::dnn::DNN_BACKEND_VKCOM;
   options.target = cv::dnn::DNN_TARGET_MYRIAD;
   expect_contains(error_of([&] { OpenCvDetector(network("channel_means"), options); }), "was built without backend");
+}
+
+TEST(OpenCvDetectorOutputs, AShapeThatIsNotTakenIsSaidWithTheFile) {
+  const TemporaryFolder folder;
+  folder.write("net.prototxt",  // Caffe's, without weights: the image in another shape
+               "input: 'image' input_shape { dim: 1 dim: 3 dim: 64 dim: 96 } layer { name: 'other' type: 'Reshape' "
+               "bottom: 'image' top: 'other' "
+               "reshape_param { shape { dim: 1 dim: 1 dim: 1 dim: 1 dim: 3 dim: 64 dim: 96 } } }");
+  const auto model = folder.write("net.caffemodel", "");
+  OpenCvDetector::Options options;
+  options.input_size = {96, 64};
+  EXPECT_EQ(error_of([&] { OpenCvDetector(model, options); }),
+            model.string() + ": an output of the network has 7 dimensions, expected at most 6");
 }
 
 }  // namespace
