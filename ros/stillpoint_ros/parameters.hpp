@@ -82,16 +82,6 @@ class ParameterReader {
   std::string path_;
 };
 
-/// Sets the options of a table by parameters.
-/// @return the names of all its options
-template <class Table, class Source>
-std::vector<std::string> read_parameters(Table& table, Source& source) {
-  std::vector<std::string> names;
-  ParameterReader<Source> reader(source, names);
-  each_option(table, reader);
-  return names;
-}
-
 /// The first parameter that is no option: a misspelled one would change nothing, without a word. Empty where all are.
 inline std::string unknown_parameter(const std::vector<std::string>& given, const std::vector<std::string>& known) {
   for (const std::string& name : given) {

@@ -51,6 +51,15 @@ struct Given {
   }
 };
 
+/// As NodeCore::start does it. Returns the names of all options.
+template <class Options>
+std::vector<std::string> read_parameters(Options& options, Given& given) {
+  std::vector<std::string> names;
+  ParameterReader<Given> reader(given, names);
+  each_option(options, reader);
+  return names;
+}
+
 TEST(Parameters, NothingGivenChangesNothing) {
   Table table;
   Given nothing;
