@@ -115,5 +115,18 @@ TEST(PinholeCamera, RefusesALensThatIsNotFinite) {
   }
 }
 
+TEST(PinholeCamera, AnImagesPixelAndThePointThatItShowsAreInverses) {
+  const Camera fisheye(200, 210, 319, 241, 640, 480, EquidistantFisheye{0.01, -0.002, 0.001, 0.0});
+  Random random(4);
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d point(random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0), random.uniform(1.0, 3.0));
+    const Vector2f pixel = image_pixel(fisheye, point);
+    EXPECT_LT((point_at_depth(fisheye, pixel, point.z()) - point).norm(), 1e-5) << "the pixel is a float";
+  }
+  // 400 · 0.5 / 2 + 320 for the pinhole; the fisheye sees atan 0.25 = 0.245 rad.
+  const Camera equidistant(400, 400, 320, 240, 640, 480, EquidistantFisheye{});
+  EXPECT_NEAR(image_pixel(equidistant, {0.5, 0, 2}).x(), 320 + 400 * std::atan(0.25), 1e-4);
+}
+
 }  // namespace
 }  // namespace stillpoint::camera_test

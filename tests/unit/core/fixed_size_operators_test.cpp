@@ -62,4 +62,16 @@ TEST(FixedSizeOperators, AgreeWithEigensBesidesRounding) {
   }
 }
 
+TEST(FixedSizeOperators, TransposesConvertsAndFindsTheLargestByHand) {
+  Eigen::Matrix<double, 2, 3> a;
+  a << 1, -7.5, 3, 4, 5, 6;
+  Eigen::Matrix<double, 3, 2> expected;
+  expected << 1, 4, -7.5, 5, 3, 6;
+  EXPECT_EQ(transposed(a), expected);
+  EXPECT_EQ(largest_magnitude(a), 7.5);
+  EXPECT_EQ(largest_magnitude(Vector3d(Vector3d::Zero())), 0.0);
+  EXPECT_EQ(to_float(Vector2d(0.1, 2)), Vector2f(0.1f, 2.0f));
+  EXPECT_EQ(to_double(Vector2f(0.1f, 2.0f)), Vector2d(static_cast<double>(0.1f), 2.0));
+}
+
 }  // namespace stillpoint::fixed_size_operators_test

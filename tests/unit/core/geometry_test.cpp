@@ -113,5 +113,23 @@ TEST(Geometry, OrthonormalizedStopsTheDriftOfLongChains) {
   EXPECT_EQ(orthonormalized(skewed).translation(), step.translation());
 }
 
+TEST(Geometry, ARotationFromAQuaternionIsEigensWhateverItsLength) {
+  Random random(9);
+  for (int i = 0; i < 100; ++i) {
+    const Eigen::Quaterniond q(random.gaussian(), random.gaussian(), random.gaussian(), random.gaussian());
+    const Matrix3d expected = q.normalized().toRotationMatrix();
+    EXPECT_TRUE(rotation_from_quaternion(q.w(), q.x(), q.y(), q.z()).isApprox(expected, kRounding));
+  }
+  EXPECT_EQ(rotation_from_quaternion(-2, 0, 0, 0), Matrix3d(Matrix3d::Identity()));
+}
+
+TEST(Geometry, PosesAreEigens) {
+  Random random(10);
+  const Pose pose = make_pose(rotation_from_vector(any_vector(random)), any_vector(random));
+  EXPECT_EQ(rotation_of(pose), Matrix3d(pose.linear()));
+  EXPECT_EQ(translation_of(pose), Vector3d(pose.translation()));
+  EXPECT_EQ(Eigen::RowVector4d(pose.matrix().row(3)), Eigen::RowVector4d(0, 0, 0, 1));
+}
+
 }  // namespace
 }  // namespace stillpoint::geometry_test

@@ -26,6 +26,13 @@ Eigen::Matrix<double, N, N> random_gram(Random& random, int rank) {
   return gram;
 }
 
+// 1 · 4 · 1 + 2 · (1 · 2 · 3) + 3 · 5 · 3 = 61
+TEST(QuadraticForm, ByHand) {
+  Eigen::Matrix2d a;
+  a << 4, 2, 2, 5;
+  EXPECT_EQ(quadratic_form(a, Eigen::Vector2d(1, 3)), 61.0);
+}
+
 TEST(Cholesky, TwoUnknownsByHand) {
   // 4 x + 2 y = 2, 2 x + 5 y = 9: x = -1/2, y = 2. The inverse is (5 -2; -2 4) / 16.
   Eigen::Matrix2d a;
