@@ -3,6 +3,7 @@
 
 #include "map_keeper.hpp"
 
+#include <exception>
 #include <optional>
 
 #include "map_ply.hpp"
@@ -34,6 +35,7 @@ void MapKeeper::add(KeyframeId id) {
   if (!has_thread_) return keep(id);
   {
     const Lock lock(mutex);
+    rethrow_failure();
     queue_.push_back(id);
   }
   something_to_do_.notify_all();
@@ -43,6 +45,11 @@ void MapKeeper::finish() {
   if (!has_thread_) return;
   Lock lock(mutex);
   nothing_left_.wait(lock, [this] { return queue_.empty() && !is_busy_; });
+  rethrow_failure();
+}
+
+void MapKeeper::rethrow_failure() const {
+  if (failure_) std::rethrow_exception(failure_);
 }
 
 void MapKeeper::work() {
@@ -54,9 +61,18 @@ void MapKeeper::work() {
     queue_.pop_front();
     is_busy_ = true;
     lock.unlock();
-    keep(id);
+    std::exception_ptr failure;
+    try {
+      keep(id);
+    } catch (...) {  // out of a thread it would end the program
+      failure = std::current_exception();
+    }
     lock.lock();
     is_busy_ = false;
+    if (failure) {
+      failure_ = failure;
+      queue_.clear();
+    }
     if (queue_.empty()) nothing_left_.notify_all();
   }
 }

@@ -7,6 +7,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -43,14 +44,17 @@ class MapKeeper {
   std::string before_loop;  ///< the map as PLY, before the last of them
 
   /// A keyframe has joined the map. Call it without the lock.
+  /// @throws what an earlier keyframe threw in the thread; the map is not kept any more then
   void add(KeyframeId id);
   /// How many wait. Call it with the lock.
   std::size_t waiting() const { return queue_.size(); }
   /// Returns when no keyframe waits any more. Call it without the lock.
+  /// @throws the same
   void finish();
 
  private:
   void work();
+  void rethrow_failure() const;
   void keep(KeyframeId id);
   void adjust(KeyframeId id);
   void thin(KeyframeId id);
@@ -60,6 +64,7 @@ class MapKeeper {
   bool has_thread_;
   std::deque<KeyframeId> queue_;
   bool is_busy_ = false, ends_ = false;
+  std::exception_ptr failure_;
   std::condition_variable something_to_do_, nothing_left_;
   std::thread thread_;
 };
