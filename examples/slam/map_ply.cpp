@@ -4,17 +4,17 @@
 #include "map_ply.hpp"
 
 #include <array>
-#include <cstdio>
+
+#include "stillpoint/io/number_format.hpp"
 
 namespace examples::slam {
 
 namespace {
 
 std::string vertex(const Vector3d& p_world, int red, int green, int blue) {
-  char line[96];
-  const int length = std::snprintf(line, sizeof line, "%.4f %.4f %.4f %d %d %d\n", p_world.x(), p_world.y(),
-                                   p_world.z(), red, green, blue);
-  return std::string(line, static_cast<std::size_t>(length));
+  std::string line;
+  for (const double metres : {p_world.x(), p_world.y(), p_world.z()}) line += stillpoint::format_fixed(metres, 4) + ' ';
+  return line + std::to_string(red) + ' ' + std::to_string(green) + ' ' + std::to_string(blue) + '\n';
 }
 
 }  // namespace
