@@ -45,7 +45,7 @@ class ResultFiles {
     const bool had_a_run = std::filesystem::exists(folder_ / "report.json", ignored);
     for (stillpoint::AtomicFile& file : files_) file.commit();
     if (!had_a_run) return;
-    for (const char* name : {"movers.csv", "trajectory_live.txt", "map.ply", "map_before_loop.ply"})
+    for (const char* name : {"movers.csv", "options.yaml", "trajectory_live.txt", "map.ply", "map_before_loop.ply"})
       if (std::find(names_.begin(), names_.end(), name) == names_.end())
         std::filesystem::remove(folder_ / name, ignored);
   }

@@ -266,6 +266,9 @@ TEST(DemoChoices, FilesOfTheRunBeforeAreReplacedOrRemovedTogether) {
   ASSERT_EQ(run_program(demo + " --frames 5 --no-movers").status, 0);
   EXPECT_EQ(read_csv(other / "out" / "frames.csv").size(), 6u);
   EXPECT_FALSE(fs::exists(other / "out" / "movers.csv"));
+  EXPECT_TRUE(fs::exists(other / "out" / "options.yaml"));
+  ASSERT_EQ(run_program(demo + " --frames 2 --prior labels").status, 0);
+  EXPECT_FALSE(fs::exists(other / "out" / "options.yaml")) << "an oracle has none";
   EXPECT_EQ(read_text(other / "out" / "notes.txt"), "mine");
 }
 
