@@ -77,7 +77,8 @@ void calibrate_camera(const Options& options, FrameSource& source) {
   std::printf("Options: %s\n", (options.out / "options.yaml").string().c_str());
 }
 
-/// Nothing gets its name before everything is computed: after an error OUT is as it was.
+/// Nothing gets its name before everything is computed: after an error OUT is as it was. The video comes last, so that
+/// one that can't get its name costs no results.
 void run(const Options& options) {
   cv::setNumThreads(options.threads);
   const std::unique_ptr<FrameSource> source = open_source(options);
@@ -118,8 +119,8 @@ void run(const Options& options) {
   results.add("report.json", json);
   results.add("report.html", html);
   results.finish();
-  if (video) video->commit();
   results.commit();
+  if (video) video->commit();
   for (const std::string& sentence : sentences(options, record, figures)) std::printf("%s\n", sentence.c_str());
   if (video) std::printf("Video: %s\n", options.save_video.string().c_str());
   std::printf("Report: %s\n", (options.out / "report.html").string().c_str());

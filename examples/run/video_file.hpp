@@ -8,7 +8,9 @@
 #include <opencv2/videoio.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -41,13 +43,15 @@ inline bool states_its_size(const std::filesystem::path& file) {
   return size.stated > 0 && size.stated <= size.found;
 }
 
-/// Writes MPEG-4 into .mp4 and Motion JPEG into .avi: to a temporary file beside the target ("out.partial.mp4"), which
-/// gets the target's name on `commit()`. Without it the destructor removes what was written.
+/// Writes MPEG-4 into .mp4 and Motion JPEG into .avi: to a temporary file beside the target ("out.partial0.mp4"), which
+/// gets the target's name on `commit()`. Without it the destructor removes what was written. Of a symbolic link, the
+/// file that it names is written.
 class VideoFile {
  public:
-  explicit VideoFile(std::filesystem::path target) : target_(std::move(target)) {
-    temporary_ = target_;
-    temporary_.replace_extension(".partial" + target_.extension().string());
+  /// @throws stillpoint::Error if no file can be made in the target's folder, or the target is no regular file
+  explicit VideoFile(std::filesystem::path target) : target_(std::move(target)), extension_(target_.extension()) {
+    check_target();
+    make_temporary();
   }
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
@@ -100,26 +104,54 @@ class VideoFile {
   }
 
  private:
+  void check_target() {
+    std::error_code ignored;
+    if (!std::filesystem::exists(target_, ignored)) return;
+    if (!std::filesystem::is_regular_file(target_, ignored))
+      throw stillpoint::Error("--save-video: found " + target_.string() + ", which is " +
+                              (std::filesystem::is_directory(target_, ignored) ? "a folder" : "a device or a pipe") +
+                              ", expected a file to write");
+    if (std::filesystem::is_symlink(target_, ignored)) target_ = std::filesystem::canonical(target_);
+  }
+
+  /// A file that exists may belong to somebody else, so it is never opened: the next number is tried.
+  void make_temporary() {
+    std::error_code ignored;
+    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, ignored))
+      throw stillpoint::Error("--save-video: found " + target_.string() + ", expected a folder that is there");
+    std::FILE* file = nullptr;
+    int reason = 0;
+    for (std::size_t attempt = 0; file == nullptr; ++attempt) {
+      temporary_ = target_;
+      temporary_.replace_extension(".partial" + std::to_string(attempt) + extension_.string());
+      errno = 0;
+      file = std::fopen(temporary_.string().c_str(), "wbx");
+      reason = errno;
+      if (file == nullptr && reason != EEXIST) break;
+    }
+    if (file == nullptr)
+      throw stillpoint::Error("--save-video: cannot make " + temporary_.string() + ": " +
+                              std::generic_category().message(reason));
+    std::fclose(file);
+  }
+
   static double rate_of(double step_s) {
     constexpr double kLeast_hz = 1.0, kMost_hz = 120.0;
     return step_s > 0 ? std::clamp(1.0 / step_s, kLeast_hz, kMost_hz) : stillpoint::kAssumedFrameRate_hz;
   }
 
   void open(double rate_hz) {
-    const bool is_mp4 = target_.extension() == ".mp4";
+    const bool is_mp4 = extension_ == ".mp4";
     const int codec =
         is_mp4 ? cv::VideoWriter::fourcc('m', 'p', '4', 'v') : cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
     if (writer_.open(temporary_.string(), codec, rate_hz, first_.size())) return;
-    std::error_code ignored;
-    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder, ignored))
-      throw stillpoint::Error("--save-video: found " + target_.string() + ", expected a folder that is there");
-    throw stillpoint::Error("--save-video: cannot write " + target_.string() + ": OpenCV has no encoder for " +
-                            (is_mp4 ? "MPEG-4 here (it takes FFmpeg for that); expected a name that ends in .avi"
-                                    : "Motion JPEG here, or the folder cannot be written to"));
+    throw stillpoint::Error(
+        "--save-video: cannot write " + target_.string() + ": OpenCV has no encoder for " +
+        (is_mp4 ? "MPEG-4 here (it takes FFmpeg for that); expected a name that ends in .avi" : "Motion JPEG here"));
   }
 
-  std::filesystem::path target_, temporary_;
+  std::filesystem::path target_, extension_, temporary_;
   cv::VideoWriter writer_;
   cv::Mat first_;
   double first_s_ = 0.0;

@@ -373,6 +373,11 @@ TEST(DemoChoices, AVideoIsWholeOrNotThere) {
   expect_error("--demo --frames 2 --quiet --out " + quoted(folder / "out") + " --save-video " +
                    quoted(folder / "none" / "video.mp4"),
                {"--save-video", "expected a folder that is there"});
+  fs::create_directory(folder / "folder.avi");
+  expect_error(
+      "--demo --frames 2 --quiet --out " + quoted(folder / "out") + " --save-video " + quoted(folder / "folder.avi"),
+      {"--save-video", "which is a folder", "expected a file to write"});
+  fs::remove(folder / "folder.avi");
   expect_error("--demo --save-video video.gif", {"--save-video", "found 'video.gif'", "ends in .mp4 or .avi"});
   EXPECT_EQ(files_in(folder / ""), (std::vector<std::string>{"out", "video.avi", "video.mp4"})) << "nothing partial";
 }

@@ -65,7 +65,7 @@ TEST_F(VideoFileTest, WhatBreaksOffIsNoticed) {
 
 // The temporary file is lost as on a disk that takes nothing.
 TEST_F(VideoFileTest, ALostFileIsAnErrorAndLeavesNothing) {
-  const std::filesystem::path partial = folder.path() / "video.partial.avi";
+  const std::filesystem::path partial = folder.path() / "video.partial0.avi";
   {
     VideoFile video(file);
     write(video, 3);
@@ -76,6 +76,38 @@ TEST_F(VideoFileTest, ALostFileIsAnErrorAndLeavesNothing) {
                   "written (is the disk full?)");
   }
   EXPECT_EQ(folder.count_files(), 0);
+}
+
+TEST_F(VideoFileTest, WhatIsNoFileIsRefusedBeforeTheFirstFrame) {
+  std::filesystem::create_directory(file);
+  EXPECT_EQ(stillpoint::error_of([&] { const VideoFile video(file); }),
+            "--save-video: found " + file.string() + ", which is a folder, expected a file to write");
+  const std::filesystem::path nowhere = folder.path() / "none" / "video.avi";
+  EXPECT_EQ(stillpoint::error_of([&] { const VideoFile video(nowhere); }),
+            "--save-video: found " + nowhere.string() + ", expected a folder that is there");
+  EXPECT_EQ(folder.count_files(), 1);
+}
+
+TEST_F(VideoFileTest, APartialFileOfSomebodyElseStays) {
+  folder.write("video.partial0.avi", "of another");
+  {
+    VideoFile video(file);
+    write(video, 2);
+    video.commit();
+  }
+  EXPECT_EQ(count_frames(file), 2u);
+  EXPECT_EQ(stillpoint::TemporaryFolder::read(folder.path() / "video.partial0.avi"), "of another");
+  EXPECT_EQ(folder.count_files(), 2);
+}
+
+TEST_F(VideoFileTest, OfALinkTheFileThatItNamesIsWritten) {
+  const std::filesystem::path named = folder.write("named", "old");
+  std::filesystem::create_symlink(named, file);
+  VideoFile video(file);
+  write(video, 2);
+  video.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(file));
+  EXPECT_EQ(count_frames(named), 2u);
 }
 
 }  // namespace
