@@ -18,7 +18,6 @@
 #include <vector>
 
 namespace {
-
 using stillpoint::FrameView, stillpoint::Pose, stillpoint::Vector2d, stillpoint::Vector3d;
 
 /// ORB features are matched with those of a keyframe, whose depth makes points of them; PnP gives the pose.
@@ -33,17 +32,18 @@ class OrbTracker {
     return features;
   }
 
-  /// @return world_from_camera; the world is the first camera
+  /// @return world_from_camera; the world is the first camera with depth
   std::optional<Pose> track(const FrameView& frame, const Features& features) {
     if (points_.empty()) return make_keyframe(frame, features, Pose::Identity());
     std::vector<cv::DMatch> matches;
-    matcher_.match(features.descriptors, descriptors_, matches);
+    cv::BFMatcher(cv::NORM_HAMMING, true).match(features.descriptors, descriptors_, matches);
     std::vector<cv::Point3d> points;
-    std::vector<cv::Point2d> pixels;  // undistorted
+    std::vector<cv::Point2d> pixels;
     for (const cv::DMatch& match : matches) {
       points.push_back(points_[static_cast<std::size_t>(match.trainIdx)]);
-      const Vector2d pixel = undistorted(features.keypoints[static_cast<std::size_t>(match.queryIdx)].pt);
-      pixels.emplace_back(pixel.x(), pixel.y());
+      const cv::Point2f pixel = features.keypoints[static_cast<std::size_t>(match.queryIdx)].pt;
+      const Vector2d undistorted = camera_.undistort({pixel.x, pixel.y});
+      pixels.emplace_back(undistorted.x(), undistorted.y());
     }
     const cv::Matx33d k(camera_.fx(), 0, camera_.cx(), 0, camera_.fy(), camera_.cy(), 0, 0, 1);
     cv::Vec3d rvec, tvec;  // camera_from_world
@@ -57,25 +57,25 @@ class OrbTracker {
   }
 
  private:
-  Vector2d undistorted(const cv::Point2f& pixel) const { return camera_.undistort({pixel.x, pixel.y}); }
-
-  Pose make_keyframe(const FrameView& frame, const Features& features, const Pose& world_from_camera) {
-    points_.clear();
-    descriptors_.release();
+  std::optional<Pose> make_keyframe(const FrameView& frame, const Features& features, const Pose& world_from_camera) {
+    std::vector<cv::Point3d> points;
+    cv::Mat descriptors;
     for (std::size_t i = 0; i < features.keypoints.size(); ++i) {
       const cv::Point2f pixel = features.keypoints[i].pt;
       const double depth_m = stillpoint::RoundedDepth().at(frame.depth, {pixel.x, pixel.y});
       if (!(depth_m > 0)) continue;
-      const Vector3d p_world = world_from_camera * camera_.back_project(undistorted(pixel), depth_m);
-      points_.emplace_back(p_world.x(), p_world.y(), p_world.z());
-      descriptors_.push_back(features.descriptors.row(static_cast<int>(i)));
+      const Vector3d p_world = world_from_camera * camera_.back_project(camera_.undistort({pixel.x, pixel.y}), depth_m);
+      points.emplace_back(p_world.x(), p_world.y(), p_world.z());
+      descriptors.push_back(features.descriptors.row(static_cast<int>(i)));
     }
+    if (points.size() < 4) return std::nullopt;  // PnP needs four: the keyframe before stays
+    points_ = points;
+    descriptors_ = descriptors;
     return world_from_camera;
   }
 
   stillpoint::Camera camera_;
   cv::Ptr<cv::ORB> orb_ = cv::ORB::create(1000);
-  cv::BFMatcher matcher_{cv::NORM_HAMMING, true};
   std::vector<cv::Point3d> points_;  // of the keyframe, in the world
   cv::Mat descriptors_;              // one a point
 };
