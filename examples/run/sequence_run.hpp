@@ -114,7 +114,7 @@ template <class Filter>
 RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed& detector, Filter a_filter,
                      AnyTracker behind_filter, AnyTracker unfiltered_backend, const RunOutput& output) {
   stillpoint::FilteredTracker filtered(std::move(a_filter), std::move(behind_filter));
-  filtered.tells_filter = false;  // these backends have no map to know better by
+  filtered.tells_filter = false;  // an odometry's poses may mislead it; those of --backend slam are not told, either
   stillpoint::FilteredTracker unfiltered(stillpoint::NullFilter{}, std::move(unfiltered_backend));
   const bool is_paced = options.has_network() && !options.is_synchronous;
   FrameClock clock;

@@ -42,8 +42,8 @@ class StereoSource : public FrameSource {
   std::vector<std::string> assumptions() const override {
     const double nearest_m = depth_.options().nearest_m, usual_m = stillpoint::StereoDepth::Options{}.nearest_m;
     if (nearest_m == usual_m) return {};
-    return {"nothing is nearer than " + stillpoint::option_text(std::round(nearest_m * 100) / 100) +
-            " m: at that depth the disparity is as wide as the image"};
+    return {"Nothing is nearer than " + stillpoint::option_text(std::round(nearest_m * 100) / 100) +
+            " m: at that depth the disparity is as wide as the image."};
   }
 
  protected:

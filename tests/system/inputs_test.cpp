@@ -148,7 +148,7 @@ TEST_F(Inputs, RectifiedPairIsARunWithDepth) {
 TEST_F(Inputs, RectifiedPairThatIsFarApartSeesNothingNear) {
   write_pair(2, "baseline_m: 1.0\n");
   expect_run(pair_arguments() + " --fps 30");
-  EXPECT_TRUE(says("nothing is nearer than 0.91 m")) << said;
+  EXPECT_TRUE(says("Nothing is nearer than 0.91 m: at that depth the disparity is as wide as the image.")) << said;
   EXPECT_EQ(report()["assumptions"].size(), 1u);
 }
 
