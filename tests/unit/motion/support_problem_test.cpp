@@ -30,6 +30,7 @@ struct Scene {
   std::array<Pose, kFrames> scratch, poses;
   std::vector<PointConstraint> points;
   std::vector<PlaneConstraint> planes;
+  const test::TestCamera camera = test_camera();
 
   explicit Scene(std::size_t of_second) {
     Random random(7);
@@ -38,9 +39,9 @@ struct Scene {
       for (std::size_t k = 0; k < kPoints; ++k) {
         PointConstraint point;
         point.point =
-            test_camera().back_project({random.uniform(150, 490), random.uniform(120, 360)}, random.uniform(1.5, 2.5));
+            camera.back_project({random.uniform(150, 490), random.uniform(120, 360)}, random.uniform(1.5, 2.5));
         const Vector3d there = links[f] * ((k < of_second ? second : first) * point.point);
-        point.pixel = test_camera().project(there);
+        point.pixel = camera.project(there);
         point.depth_m = there.z();
         point.depth_slope = 100.0;
         point.weight = k % 2 == 0 ? 1.0 : 0.5;
@@ -50,7 +51,7 @@ struct Scene {
     }
   }
 
-  SupportProblem<test::TestCamera> problem() { return {points, planes, poses, scratch, test_camera(), kInlierSigmas}; }
+  SupportProblem<test::TestCamera> problem() { return {points, planes, poses, scratch, camera, kInlierSigmas}; }
 };
 
 /// Of the weights 1 and 0.5 in turn.
