@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -101,9 +101,9 @@ TEST(ReadTumFrames, ManyImagesAtNearlyTheSameTimeTakeNoTime) {
     colour.push_back({1e-6 * static_cast<double>(i), ""});
     depth.push_back({1e-6 * static_cast<double>(i) + 4e-7, ""});
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   const auto pairs = detail::associate_images(colour, depth, 0.02);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2.0);
   ASSERT_EQ(pairs.size(), kImages);
   for (std::size_t i = 0; i < kImages; ++i) EXPECT_EQ(pairs[i], (std::pair{i, i}));
 }

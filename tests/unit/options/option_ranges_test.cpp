@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <ctime>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -121,7 +121,7 @@ TYPED_TEST_SUITE(OptionRanges, RangedSets);
 TYPED_TEST(OptionRanges, BothEndsOfEachAreSafe) {
   for (const Place place : {Place::least, Place::most}) {
     this->each(place, [&](std::size_t option, const std::string& name) {
-      const auto started = std::chrono::steady_clock::now();
+      const std::clock_t started = std::clock();  // processor time: the machine may be busy
       for (const std::size_t set_before : {0u, 3u}) {
         FrameFilter<TypeParam> filter(Clip::camera());
         ImageBuffer mask;
@@ -136,8 +136,8 @@ TYPED_TEST(OptionRanges, BothEndsOfEachAreSafe) {
           ASSERT_EQ(mask.view().width, Clip::kWidth);
         }
       }
-      const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - started;
-      EXPECT_LT(taken.count(), 60.0) << name;
+      const double taken_s = static_cast<double>(std::clock() - started) / CLOCKS_PER_SEC;
+      EXPECT_LT(taken_s, 60.0) << name;
     });
   }
   rusage usage{};
