@@ -51,6 +51,12 @@ struct DepthView {
                                                 : metres(image.row<float>(v)[u]);
   }
 
+  /// Of a pixel of the depth image.
+  bool has_depth(int u, int v) const noexcept {
+    return image.format == PixelFormat::depth16 ? is_depth(image.row<std::uint16_t>(v)[u])
+                                                : is_depth(image.row<float>(v)[u]);
+  }
+
   /// Whether a pixel has a depth: not 0, and not NaN or infinite.
   static bool is_depth(std::uint16_t raw) noexcept { return raw > 0; }
   static bool is_depth(float value_m) noexcept { return std::isfinite(value_m) && value_m > 0.0f; }

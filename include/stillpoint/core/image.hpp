@@ -77,7 +77,7 @@ struct ImageView {
 /// Owns a copy of an image, rows without gaps. Its memory is reused when an image of the same size follows.
 class ImageBuffer {
  public:
-  void resize(int width, int height, PixelFormat format) {
+  [[gnu::noinline]] void resize(int width, int height, PixelFormat format) {
     width_ = width;
     height_ = height;
     format_ = format;

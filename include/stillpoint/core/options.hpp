@@ -62,18 +62,26 @@ std::string option_text(Number value) {
 
 /// As in "0.01 to 100".
 inline std::string option_text(const OptionRange& range) {
-  return option_text(range.least) + " to " + option_text(range.most);
+  std::string text = option_text(range.least);
+  text += " to ";
+  text += option_text(range.most);
+  return text;
 }
 
 /// What an option of this type may be, in words.
 template <class Number>
 std::string expected_of(const OptionRange& range) {
-  return (std::is_integral_v<Number> ? "a whole number from " : "a number from ") + option_text(range);
+  std::string text = std::is_integral_v<Number> ? "a whole number from " : "a number from ";
+  text += option_text(range);
+  return text;
 }
 template <class... Words>
 std::string expected_of_choice(Words... words) {
   std::string list;
-  for (const char* word : {words...}) list += (list.empty() ? "" : " or ") + std::string(word);
+  for (const char* word : {words...}) {
+    if (!list.empty()) list += " or ";
+    list += word;
+  }
   return list;
 }
 
@@ -116,9 +124,10 @@ class OptionCheck {
   /// As in "gate.false_positive_rate is 5, expected a number from 0.000001 to 0.5"; empty where all are in range.
   const std::string& error() const noexcept { return error_; }
 
-  /// Apart from the callers: inlined for each of the options it would be a twentieth of the whole filter's code.
+  /// Apart from the callers, and small: inlined for each of the options it would be a twentieth of the whole filter's
+  /// code.
   template <class T>
-  [[gnu::noinline]] void operator()(const char* name, T value, const OptionRange& range) {
+  [[gnu::noinline, gnu::cold]] void operator()(const char* name, T value, const OptionRange& range) {
     if (error_.empty() && !range.contains(static_cast<double>(value)))
       report(name, option_text(value), expected_of<T>(range));
   }
@@ -149,12 +158,16 @@ class OptionCheck {
   };
 
   /// With the names of the groups that it is in, as in `matcher.corners.`.
-  static std::string path(const Group* group) {
-    return group == nullptr ? std::string() : path(group->outer) + group->name + '.';
+  [[gnu::cold]] void report(const char* name, const std::string& found, const std::string& expected) {
+    append_path(innermost_);
+    for (const char* text : {name, " is ", found.c_str(), ", expected ", expected.c_str()}) error_ += text;
   }
 
-  void report(const char* name, const std::string& found, const std::string& expected) {
-    error_ = path(innermost_) + name + " is " + found + ", expected " + expected;
+  [[gnu::cold]] void append_path(const Group* group) {
+    if (group == nullptr) return;
+    append_path(group->outer);
+    error_ += group->name;
+    error_ += '.';
   }
 
   const Group* innermost_ = nullptr;

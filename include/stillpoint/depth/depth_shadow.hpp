@@ -47,8 +47,7 @@ class DepthShadow {
     if (!(std::max(baseline_m_[kFarOnLeft], baseline_m_[kFarOnRight]) > 0)) return 0.0;
     const Vector2f at = to_depth_(pixel);
     if (!(depth_.image.border_distance_px(at.x(), at.y()) >= 0.0f)) return 0.0;
-    return depth_.image.format == PixelFormat::depth16 ? farther_m<std::uint16_t>(rounded(at.x()), rounded(at.y()))
-                                                       : farther_m<float>(rounded(at.x()), rounded(at.y()));
+    return farther_m(rounded(at.x()), rounded(at.y()));
   }
 
  private:
@@ -69,9 +68,8 @@ class DepthShadow {
   static constexpr double kEnd_px = 1.0, kWidest = 1.25, kWidest_px = 3.0;
 
   /// How many pixels the shadow of a baseline of one metre is wide; 0 where depth does not jump.
-  template <class Depth>
-  double px_per_metre(Depth left, Depth right) const noexcept {
-    const auto left_m = static_cast<double>(depth_.metres(left)), right_m = static_cast<double>(depth_.metres(right));
+  double px_per_metre(float depth_on_left_m, float depth_on_right_m) const noexcept {
+    const auto left_m = static_cast<double>(depth_on_left_m), right_m = static_cast<double>(depth_on_right_m);
     const double nearer_m = std::min(left_m, right_m), farther_m = std::max(left_m, right_m);
     return farther_m > (1.0 + kJump) * nearer_m ? focal_px_ * (1.0 / nearer_m - 1.0 / farther_m) : 0.0;
   }
@@ -84,7 +82,9 @@ class DepthShadow {
       int last = -1;
       for (int u = 0; u < depth_.image.width; ++u) {
         if (!DepthView::is_depth(row[u])) continue;
-        const double px = last >= 0 && may_jump(row[last], row[u]) ? px_per_metre(row[last], row[u]) : 0.0;
+        const double px = last >= 0 && may_jump(row[last], row[u])
+                              ? px_per_metre(depth_.metres(row[last]), depth_.metres(row[u]))
+                              : 0.0;
         if (px > kLeastPxPerMetre) {
           const auto bin = static_cast<std::size_t>((u - last - 1) / (kBin_m * px) + 0.5);
           ++jumps[row[last] > row[u] ? kFarOnLeft : kFarOnRight][std::min(bin, jumps[0].size() - 1)];
@@ -116,24 +116,23 @@ class DepthShadow {
     return all >= kFewestJumps && most > kMostly * all ? kBin_m * bins : 0.0;
   }
 
-  template <class Depth>
   double farther_m(int u, int v) const noexcept {
-    const Depth* const row = depth_.image.row<Depth>(v);
-    if (DepthView::is_depth(row[u])) return 0.0;
+    if (depth_.has_depth(u, v)) return 0.0;
     const double baseline_m = std::max(baseline_m_[kFarOnLeft], baseline_m_[kFarOnRight]);
     const int reach_px = static_cast<int>(kWidest * baseline_m * focal_px_ / kNearest_m + kWidest_px);
     const int leftmost = std::max(u - reach_px, 0), rightmost = std::min(u + reach_px, depth_.image.width - 1);
     int left = u, right = u;
-    while (left >= leftmost && !DepthView::is_depth(row[left])) --left;
-    while (right <= rightmost && !DepthView::is_depth(row[right])) ++right;
+    while (left >= leftmost && !depth_.has_depth(left, v)) --left;
+    while (right <= rightmost && !depth_.has_depth(right, v)) ++right;
     if (left < leftmost || right > rightmost) return 0.0;
-    const Side side = row[left] > row[right] ? kFarOnLeft : kFarOnRight;
-    const double width_px = baseline_m_[side] * px_per_metre(row[left], row[right]);
+    const float left_m = depth_.metres(left, v), right_m = depth_.metres(right, v);
+    const Side side = left_m > right_m ? kFarOnLeft : kFarOnRight;
+    const double width_px = baseline_m_[side] * px_per_metre(left_m, right_m);
     const int from_far_px = side == kFarOnLeft ? u - left : right - u, hole_px = right - left - 1;
     const int from_near_px = hole_px + 1 - from_far_px;
     const bool is_shadow = width_px > 0 && hole_px <= kWidest * width_px + kWidest_px &&
                            from_far_px <= width_px + kEnd_px && from_near_px > kOccludersEdge_px;
-    return is_shadow ? static_cast<double>(depth_.metres(std::max(row[left], row[right]))) : 0.0;
+    return is_shadow ? static_cast<double>(std::max(left_m, right_m)) : 0.0;
   }
 
   DepthView depth_;

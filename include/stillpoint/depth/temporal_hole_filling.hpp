@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -54,9 +53,11 @@ class TemporalHoleFilling {
     for (ImageBuffer* const age : {&age_, &age_before_}) age->resize(depth.width, depth.height, PixelFormat::gray8);
     if (!was_filled) clear(age_);
     most_age_ = static_cast<int>(std::min(frames, 255.0));
-    return depth.format == PixelFormat::depth16
-               ? fill_tiles<std::uint16_t>(reference, current, current_from_reference, camera, noise)
-               : fill_tiles<float>(reference, current, current_from_reference, camera, noise);
+    if (depth.format == PixelFormat::depth16)
+      find_tiles<std::uint16_t>(depth, before);
+    else
+      find_tiles<float>(depth, before);
+    return tiles_.empty() ? current.depth : fill_tiles(reference, current, current_from_reference, camera, noise);
   }
 
   void reset() noexcept { filled_at_s_ = kNever_s; }
@@ -107,12 +108,10 @@ class TemporalHoleFilling {
     }
   }
 
-  template <class Depth, class Camera, class Noise>
+  template <class Camera, class Noise>
   DepthView fill_tiles(const FrameView& reference, const FrameView& current, const Pose& current_from_reference,
                        const Camera& camera, const Noise& noise) {
-    const ImageView &depth = current.depth.image, &before = reference.depth.image;
-    find_tiles<Depth>(depth, before);
-    if (tiles_.empty()) return current.depth;
+    const ImageView& depth = current.depth.image;
     std::swap(age_, age_before_);
     clear(age_);
     filled_.assign(depth);
@@ -123,13 +122,13 @@ class TemporalHoleFilling {
       const TileMotion motion(depth, tile.left, tile.top, to_depth, current_from_reference, camera);
       for (int v = tile.top; v < tile.top + TileMotion::kSide_px; ++v)
         for (int u = tile.left; u < tile.left + TileMotion::kSide_px; ++u)
-          if (is_lost(depth.row<Depth>(v)[u], before.row<Depth>(v)[u]))
-            fill_pixel<Depth>(u, v, motion, to_depth, shadow, reference, current, noise);
+          if (!current.depth.has_depth(u, v) && reference.depth.has_depth(u, v))
+            fill_pixel(u, v, motion, to_depth, shadow, reference, current, noise);
     }
     return DepthView(filled_.view(), current.depth.factor);
   }
 
-  template <class Depth, class Noise>
+  template <class Noise>
   void fill_pixel(int u, int v, const TileMotion& motion, const DepthScale& to_depth, const DepthShadow& shadow,
                   const FrameView& reference, const FrameView& current, const Noise& noise) {
     // What a static scene shows here was in the last frame where what was here then came from.
@@ -140,27 +139,26 @@ class TemporalHoleFilling {
     const int before_u = rounded(before.x()), before_v = rounded(before.y());
     const int age = age_before_.row<std::uint8_t>(before_v)[before_u];
     if (age >= most_age_) return;
-    const TileMotion::Place there = motion(before.x(), before.y(), depth_between_m<Depth>(reference.depth, before));
+    const TileMotion::Place there = motion(before.x(), before.y(), depth_between_m(reference.depth, before));
     const Vector2f off = Vector2f(there.u, there.v) - here;
     if (!(std::max(std::abs(off.x()), std::abs(off.y())) <= kSamePixel_px)) return;
     const Vector2f pixel = to_depth.inverse(here);
     if (shadow.farther_m(pixel) > 0.0 || !are_alike(reference.gray, to_depth.inverse(before), current.gray, pixel))
       return;
-    filled_.row<Depth>(v)[u] = in_units<Depth>(there.depth_m, current.depth.factor);
+    set_depth(u, v, there.depth_m, current.depth.factor);
     age_.row<std::uint8_t>(v)[u] = static_cast<std::uint8_t>(age + 1);
   }
 
   /// Of one surface, between its pixels: on a floor a half of one is centimetres.
-  template <class Depth>
   static float depth_between_m(const DepthView& depth, const Vector2f& at) noexcept {
     const int u = static_cast<int>(at.x()), v = static_cast<int>(at.y());
-    const Depth *const above = depth.image.row<Depth>(v) + u, *const below = depth.image.row<Depth>(v + 1) + u;
-    const bool all = DepthView::is_depth(above[0]) && DepthView::is_depth(above[1]) && DepthView::is_depth(below[0]) &&
-                     DepthView::is_depth(below[1]);
-    if (!all) return depth.metres(rounded(at.x()), rounded(at.y()));
+    const float above[] = {depth.metres(u, v), depth.metres(u + 1, v)};
+    const float below[] = {depth.metres(u, v + 1), depth.metres(u + 1, v + 1)};
+    if (!(std::min(std::min(above[0], above[1]), std::min(below[0], below[1])) > 0.0f))
+      return depth.metres(rounded(at.x()), rounded(at.y()));
     const float x = at.x() - static_cast<float>(u), y = at.y() - static_cast<float>(v);
-    const float above_m = (1.0f - x) * depth.metres(above[0]) + x * depth.metres(above[1]);
-    const float below_m = (1.0f - x) * depth.metres(below[0]) + x * depth.metres(below[1]);
+    const float above_m = (1.0f - x) * above[0] + x * above[1];
+    const float below_m = (1.0f - x) * below[0] + x * below[1];
     return (1.0f - y) * above_m + y * below_m;
   }
 
@@ -179,12 +177,12 @@ class TemporalHoleFilling {
     return sum <= kMostDifference * kSide * kSide;
   }
 
-  template <class Depth>
-  static Depth in_units(float depth_m, double factor) noexcept {
-    if constexpr (std::is_same_v<Depth, float>)
-      return depth_m;
+  void set_depth(int u, int v, float depth_m, double factor) noexcept {
+    if (filled_.view().format == PixelFormat::depth32f)
+      filled_.row<float>(v)[u] = depth_m;
     else
-      return static_cast<Depth>(std::clamp(static_cast<double>(depth_m) * factor + 0.5, 1.0, 65535.0));
+      filled_.row<std::uint16_t>(v)[u] =
+          static_cast<std::uint16_t>(std::clamp(static_cast<double>(depth_m) * factor + 0.5, 1.0, 65535.0));
   }
 
   std::vector<std::uint16_t> lost_;  // by column of a row of tiles
