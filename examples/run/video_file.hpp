@@ -8,7 +8,6 @@
 #include <opencv2/videoio.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +17,7 @@
 
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/io/image_folder.hpp"
+#include "stillpoint/io/target_file.hpp"
 #include "stillpoint/io/whole_video.hpp"
 
 namespace stillpoint_run {
@@ -106,34 +106,27 @@ class VideoFile {
  private:
   void check_target() {
     std::error_code ignored;
-    if (!std::filesystem::exists(target_, ignored)) return;
-    if (!std::filesystem::is_regular_file(target_, ignored))
+    if (std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored))
       throw stillpoint::Error("--save-video: found " + target_.string() + ", which is " +
                               (std::filesystem::is_directory(target_, ignored) ? "a folder" : "a device or a pipe") +
                               ", expected a file to write");
-    if (std::filesystem::is_symlink(target_, ignored)) target_ = std::filesystem::canonical(target_);
+    target_ = stillpoint::detail::follow_links(target_);
   }
 
-  /// A file that exists may belong to somebody else, so it is never opened: the next number is tried.
   void make_temporary() {
     std::error_code ignored;
     const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
     if (!std::filesystem::is_directory(folder, ignored))
       throw stillpoint::Error("--save-video: found " + target_.string() + ", expected a folder that is there");
-    std::FILE* file = nullptr;
-    int reason = 0;
-    for (std::size_t attempt = 0; file == nullptr; ++attempt) {
-      temporary_ = target_;
-      temporary_.replace_extension(".partial" + std::to_string(attempt) + extension_.string());
-      errno = 0;
-      file = std::fopen(temporary_.string().c_str(), "wbx");
-      reason = errno;
-      if (file == nullptr && reason != EEXIST) break;
-    }
-    if (file == nullptr)
+    stillpoint::detail::NewFile made = stillpoint::detail::make_new_file([this](std::size_t number) {
+      std::filesystem::path name = target_;
+      return name.replace_extension(".partial" + std::to_string(number) + extension_.string());
+    });
+    temporary_ = std::move(made.path);
+    if (made.file == nullptr)
       throw stillpoint::Error("--save-video: cannot make " + temporary_.string() + ": " +
-                              std::generic_category().message(reason));
-    std::fclose(file);
+                              std::generic_category().message(made.error));
+    std::fclose(made.file);
   }
 
   static double rate_of(double step_s) {

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/io/target_file.hpp"
 
 namespace stillpoint {
 
@@ -32,16 +33,14 @@ class AtomicFile {
     // A rename would replace what is no file, and a link.
     if (std::filesystem::exists(target_, ignored) && !std::filesystem::is_regular_file(target_, ignored))
       throw Error(target_.string() + ": found a device or a pipe, expected a file to write");
-    follow_links();
-    // A file that exists may belong to another process, so it is never opened: the next number is tried.
-    for (std::size_t attempt = 0; file_ == nullptr; ++attempt) {
-      temporary_ = target_;
-      temporary_ += ".partial" + std::to_string(attempt);
-      errno = 0;
-      file_ = std::fopen(temporary_.string().c_str(), "wbx");
-      if (file_ == nullptr && errno != EEXIST) break;
-    }
-    if (file_ == nullptr) fail("cannot make " + temporary_.filename().string() + " beside it", errno);
+    target_ = detail::follow_links(target_);
+    detail::NewFile made = detail::make_new_file([this](std::size_t number) {
+      std::filesystem::path name = target_;
+      return name += ".partial" + std::to_string(number);
+    });
+    temporary_ = std::move(made.path);
+    file_ = made.file;
+    if (file_ == nullptr) fail("cannot make " + temporary_.filename().string() + " beside it", made.error);
   }
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -85,20 +84,6 @@ class AtomicFile {
   }
 
  private:
-  /// Link by link: std::filesystem's functions do not resolve one whose file is not there yet.
-  void follow_links() {
-    constexpr int kMostLinks = 40;  // as Linux has it
-    std::filesystem::path file = target_;
-    std::error_code error;
-    for (int links = 0; std::filesystem::is_symlink(std::filesystem::symlink_status(file, error)); ++links) {
-      const std::filesystem::path named = std::filesystem::read_symlink(file, error);
-      if (error || links == kMostLinks)
-        throw Error(target_.string() + ": found a symbolic link that leads to no file, expected a file to write");
-      file = file.parent_path() / named;
-    }
-    target_ = std::move(file);
-  }
-
   void require_open() const {
     if (file_ == nullptr) throw Error(target_.string() + ": is finished already, expected no further writing");
   }

@@ -110,5 +110,15 @@ TEST_F(VideoFileTest, OfALinkTheFileThatItNamesIsWritten) {
   EXPECT_EQ(count_frames(named), 2u);
 }
 
+TEST_F(VideoFileTest, OfALinkTheFileThatIsMissingIsMade) {
+  const std::filesystem::path named = folder.path() / "named";
+  std::filesystem::create_symlink(named, file);
+  VideoFile video(file);
+  write(video, 2);
+  video.commit();
+  EXPECT_TRUE(std::filesystem::is_symlink(file));
+  EXPECT_EQ(count_frames(named), 2u);
+}
+
 }  // namespace
 }  // namespace stillpoint_run::video_file_test
