@@ -23,6 +23,7 @@
 
 #include "run/backends.hpp"
 #include "run/calibration.hpp"
+#include "run/command_line.hpp"
 #include "run/csv_files.hpp"
 #include "run/detection_feed.hpp"
 #include "run/figures.hpp"

@@ -7,10 +7,14 @@
 #include <CLI/CLI.hpp>
 
 #include <charconv>
+#include <filesystem>
 #include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
+
+#include "stillpoint/core/error.hpp"
+#include "stillpoint/detectors/layout.hpp"
 
 namespace stillpoint_run::detail {
 
@@ -67,6 +71,43 @@ inline CLI::Validator number(double least, double most, const char* range) {
 inline CLI::Validator not_empty() {
   return CLI::Validator(
       [](std::string& text) { return text.empty() ? std::string("found nothing, expected a path") : std::string(); },
+      "");
+}
+
+/// A word that names a prior, or a file that is there; what is in it shows when it is read.
+inline CLI::Validator prior() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::error_code ignored;
+        for (const char* word : {"none", "boxes", "labels"})
+          if (text == word) return std::string();
+        if (std::filesystem::exists(text, ignored)) return std::string();
+        return "found '" + text + "', and no such file; expected one of none, boxes, labels, or the file of a network";
+      },
+      "");
+}
+
+inline CLI::Validator layout() {
+  return CLI::Validator(
+      [](std::string& text) {
+        try {
+          stillpoint::layout_from_name(text);
+          return std::string();
+        } catch (const stillpoint::Error&) {
+          return "found '" + text + "', expected automatic or one of " + stillpoint::layout_names();
+        }
+      },
+      "");
+}
+
+/// The ending says which codec.
+inline CLI::Validator video_name() {
+  return CLI::Validator(
+      [](std::string& text) {
+        const std::string ending = std::filesystem::path(text).extension().string();
+        if (ending == ".mp4" || ending == ".avi") return std::string();
+        return "found '" + text + "', expected a name that ends in .mp4 or .avi";
+      },
       "");
 }
 

@@ -13,6 +13,7 @@
 
 #include "figures.hpp"
 #include "options.hpp"
+#include "settings.hpp"
 #include "stillpoint/version.hpp"
 
 namespace stillpoint_run {

@@ -16,6 +16,7 @@
 #include "html.hpp"
 #include "mover_history.hpp"
 #include "options.hpp"
+#include "settings.hpp"
 #include "words.hpp"
 
 namespace stillpoint_run {

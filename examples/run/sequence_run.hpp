@@ -88,6 +88,43 @@ inline void begin_at_identity(stillpoint::Trajectory& trajectory) {
     pose.world_from_camera = stillpoint::orthonormalized(first_from_world * pose.world_from_camera);
 }
 
+/// What is known of a run before its first frame.
+inline RunRecord begin_run(const Options& options, const FrameSource& source) {
+  RunRecord run;
+  run.sequence = source.name();
+  run.ground_truth = source.ground_truth();
+  run.has_backend = options.backend != "none";
+  run.has_labels = source.has_labels();
+  run.has_depth = source.has_depth();
+  run.missing_files = source.missing_files();
+  run.assumptions = source.assumptions();
+  if (options.depth_noise == "stereo" && !source.stereo_noise())
+    run.assumptions.push_back(
+        "The depth's baseline is not known: " + stillpoint::format_fixed(stillpoint::StereoNoise{}.baseline_m, 2) +
+        " m is assumed (baseline_m in camera.yaml).");
+  return run;
+}
+
+/// The frame takes its place in the run.
+inline void append_frame(const FrameRecord& record, RunRecord& run) {
+  for (const auto& [mover, name] : record.movers)
+    run.movers.push_back(
+        {run.frames.size(), mover.id, mover.state, mover.box, mover.centroid, mover.velocity.norm(), name});
+  run.frames.push_back(record.summary);
+}
+
+/// What is known after the last frame only: what was missing, the network's times, the map and the poses by it.
+inline void finish_run(const FrameSource& source, DetectionFeed& detector, AnyTracker& behind_filter,
+                       AnyTracker& unfiltered_backend, RunRecord& run) {
+  run.images_without_depth = source.images_without_depth();
+  run.detector = detector.finish();
+  run.map = behind_filter.map_files();
+  run.live = run.filtered;
+  run.filtered = adjusted(behind_filter, run.filtered);
+  run.unfiltered = adjusted(unfiltered_backend, run.unfiltered);
+  for (stillpoint::Trajectory* trajectory : {&run.filtered, &run.unfiltered, &run.live}) begin_at_identity(*trajectory);
+}
+
 }  // namespace detail
 
 /// Where the rows go while the run goes on.
@@ -97,6 +134,12 @@ struct RunOutput {
   PictureRoll& pictures;
   VideoFile* video;    ///< null where nobody asked for one
   MoversFile* movers;  ///< null: not wanted
+
+  void write_rows(const FrameRecord& record) const {
+    features.write(record);
+    frames.write(record.summary);
+    if (movers != nullptr) movers->write(record);
+  }
 };
 
 /// How many frames the options ask for; empty where only the source's end tells.
@@ -122,18 +165,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   const auto first = static_cast<std::size_t>(options.start);
   Progress progress(count, options.quiet);
 
-  RunRecord run;
-  run.sequence = source.name();
-  run.ground_truth = source.ground_truth();
-  run.has_backend = options.backend != "none";
-  run.has_labels = source.has_labels();
-  run.has_depth = source.has_depth();
-  run.missing_files = source.missing_files();
-  run.assumptions = source.assumptions();
-  if (options.depth_noise == "stereo" && !source.stereo_noise())
-    run.assumptions.push_back(
-        "The depth's baseline is not known: " + stillpoint::format_fixed(stillpoint::StereoNoise{}.baseline_m, 2) +
-        " m is assumed (baseline_m in camera.yaml).");
+  RunRecord run = detail::begin_run(options, source);
   run.has_stages = !std::is_same_v<Filter, examples::OracleFilter>;
   const auto class_name = [&detector](int index) { return detector.class_name(index); };
   VideoFrame drawing(source.camera());
@@ -167,16 +199,10 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
         run.predicted_mask.add_frame(frame.labels, record.pixels, under_no_mask);
       }
     }
-
-    output.features.write(record);
-    output.frames.write(record.summary);
-    if (output.movers != nullptr) output.movers->write(record);
+    output.write_rows(record);
     output.pictures.add(frame, record, source.camera());
     if (output.video != nullptr) output.video->write(drawing.draw(frame, record, run), record.summary.time_s);
-    for (const auto& [mover, name] : record.movers)
-      run.movers.push_back(
-          {run.frames.size(), mover.id, mover.state, mover.box, mover.centroid, mover.velocity.norm(), name});
-    run.frames.push_back(record.summary);
+    detail::append_frame(record, run);
     progress.frame_done();
     run.was_interrupted = was_interrupted();
     if (run.was_interrupted) break;
@@ -184,14 +210,7 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
   if (run.frames.empty())
     throw stillpoint::Error("--start: found " + std::to_string(options.start) + ", expected less than the number of " +
                             "frames of " + run.sequence);
-  run.images_without_depth = source.images_without_depth();  // counted while frames were read
-  run.detector = detector.finish();
-  run.map = filtered.backend.map_files();
-  run.live = run.filtered;
-  run.filtered = detail::adjusted(filtered.backend, run.filtered);
-  run.unfiltered = detail::adjusted(unfiltered.backend, run.unfiltered);
-  for (stillpoint::Trajectory* trajectory : {&run.filtered, &run.unfiltered, &run.live})
-    detail::begin_at_identity(*trajectory);
+  detail::finish_run(source, detector, filtered.backend, unfiltered.backend, run);
   return run;
 }
 

@@ -17,6 +17,7 @@
 #include "run/picture_roll.hpp"
 #include "run/report_plots.hpp"
 #include "run/run_paths.hpp"
+#include "run/settings.hpp"
 
 namespace stillpoint_run::report_parts_test {
 namespace {
