@@ -7,24 +7,22 @@
 
 #include <opencv2/core/utility.hpp>
 
-#include <atomic>
 #include <charconv>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "accuracy_methods.hpp"
 #include "accuracy_sequence.hpp"
+#include "parallel.hpp"
 #include "stillpoint/core/error.hpp"
 
 namespace stillpoint::bench {
@@ -90,25 +88,11 @@ void measure(const std::filesystem::path& data, std::size_t most_frames, unsigne
   const std::vector<Method> rows = methods();
   std::vector<std::vector<Outcome>> outcomes(columns.size());
   // A column is one thread's: filters know nothing of each other, so that the numbers do not depend on the threads.
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex guard;
-  const auto work = [&] {
-    try {
-      for (std::size_t c = next++; c < columns.size(); c = next++) {
-        const LabelledSequence sequence = columns[c].load();
-        for (const Method& row : rows) outcomes[c].push_back(row.run(sequence, columns[c].gives_boxes));
-        std::fprintf(stderr, "stillpoint_accuracy: %s done\n", columns[c].name.c_str());
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(guard);
-      failure = std::current_exception();
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned t = 0; t < thread_count; ++t) threads.emplace_back(work);
-  for (std::thread& thread : threads) thread.join();
-  if (failure) std::rethrow_exception(failure);
+  for_each_in_parallel(columns.size(), thread_count, [&](std::size_t c) {
+    const LabelledSequence sequence = columns[c].load();
+    for (const Method& row : rows) outcomes[c].push_back(row.run(sequence, columns[c].gives_boxes));
+    std::fprintf(stderr, "stillpoint_accuracy: %s done\n", columns[c].name.c_str());
+  });
 
   if (most_frames != kAllFrames) std::printf("At most %zu frames of each sequence.\n\n", most_frames);
   print_table("Recall on dynamic features / false positives on the background, %", columns, rows, outcomes,

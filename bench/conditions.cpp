@@ -15,7 +15,6 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -23,6 +22,7 @@
 #include <vector>
 
 #include "conditions.hpp"
+#include "parallel.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/policies/with_movers.hpp"
@@ -137,26 +137,12 @@ void measure(const Arguments& arguments) {
   std::vector<std::pair<std::size_t, std::size_t>> jobs;
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t run = 0; run < rows[r].outcomes.size(); ++run) jobs.emplace_back(r, run);
-  std::atomic<std::size_t> next{0}, done{0};
-  std::exception_ptr failure;
-  std::mutex guard;
-  const auto work = [&] {
-    try {
-      for (std::size_t j = next++; j < jobs.size(); j = next++) {
-        run_once(rows[jobs[j].first], jobs[j].second, arguments);
-        std::fprintf(stderr, "\r%zu of %zu runs", ++done, jobs.size());
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(guard);
-      failure = std::current_exception();
-      next = jobs.size();
-    }
-  };
-  std::vector<std::thread> threads;
-  for (unsigned t = 0; t < arguments.threads; ++t) threads.emplace_back(work);
-  for (std::thread& thread : threads) thread.join();
+  std::atomic<std::size_t> done{0};
+  for_each_in_parallel(jobs.size(), arguments.threads, [&](std::size_t j) {
+    run_once(rows[jobs[j].first], jobs[j].second, arguments);
+    std::fprintf(stderr, "\r%zu of %zu runs", ++done, jobs.size());
+  });
   std::fprintf(stderr, "\n");
-  if (failure) std::rethrow_exception(failure);
   print(rows);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pairs.hpp"
+#include "quantiles.hpp"
 #include "stillpoint/motion/epipolar/epipolar_motion.hpp"
 #include "two_views.hpp"
 

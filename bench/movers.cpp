@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "accuracy_sequence.hpp"
+#include "quantiles.hpp"
 #include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/evaluation/mover_score.hpp"
 #include "stillpoint/filter_frame.hpp"
@@ -130,8 +131,6 @@ MoverSequence sequence_of(const std::string& name) {
   if (name == "five_people") return rendered(synthetic::five_people());
   return recorded(std::filesystem::path(STILLPOINT_SHARED_DATA) / name);
 }
-
-double median(const std::vector<double>& values) { return error_statistics(values).median; }
 
 /// @param gives_boxes  of a detector; where the scene is synthetic, the true ones
 void measure(const std::string& name, const MoverSequence& sequence, bool gives_boxes) {

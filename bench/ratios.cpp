@@ -7,8 +7,6 @@
 // the processor time of the thread. Each item (a frame, a scene) has the median of its repetitions, and a line the mean
 // over the items. Lines that begin with # say on what, and how exact both are.
 
-#include <time.h>
-
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 
@@ -27,7 +25,9 @@
 #include "filter_run.hpp"
 #include "host_tracks.hpp"
 #include "pairs.hpp"
+#include "quantiles.hpp"
 #include "stillpoint/core/error.hpp"
+#include "thread_time.hpp"
 #include "two_views.hpp"
 
 namespace stillpoint::bench {
@@ -38,13 +38,6 @@ struct Settings {
   int repetitions = 5;
   std::size_t frames = 60;
 };
-
-/// What this thread has had of a processor, ms.
-double thread_ms() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-}
 
 template <class Function>
 double time_ms(Function&& function) {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "quantiles.hpp"
 #include "stillpoint/score/offset_score.hpp"
 #include "two_views.hpp"
 

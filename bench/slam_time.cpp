@@ -6,8 +6,6 @@
 // its own. Prints the 95th percentiles and their ratio: of the processor time of the caller's thread, which another
 // load hardly changes, and of the clock, which also has what it waits for the map. OpenCV has one thread.
 
-#include <time.h>
-
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
@@ -21,12 +19,15 @@
 #include <utility>
 #include <vector>
 
+#include "quantiles.hpp"
 #include "slam/slam.hpp"
 #include "stillpoint/compiled.hpp"
 #include "stillpoint/filtered_tracker.hpp"
 #include "stillpoint/io/tum_sequence.hpp"
 #include "stillpoint/opencv.hpp"
+#include "thread_time.hpp"
 
+namespace stillpoint::bench {
 namespace {
 
 struct Milliseconds {
@@ -35,11 +36,6 @@ struct Milliseconds {
 
 template <class Function>
 void measure(Milliseconds& times, Function&& function) {
-  const auto thread_ms = [] {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
-  };
   const double thread_start_ms = thread_ms();
   const auto start = std::chrono::steady_clock::now();
   function();
@@ -47,30 +43,23 @@ void measure(Milliseconds& times, Function&& function) {
   times.of_thread.push_back(thread_ms() - thread_start_ms);
 }
 
-double percentile_95(std::vector<double> values) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 void print(const char* what, const std::vector<double>& slam_ms, const std::vector<double>& orb_ms) {
-  const double slam = percentile_95(slam_ms), orb = percentile_95(orb_ms);
+  const double slam = percentile_95(slam_ms).value(), orb = percentile_95(orb_ms).value();
   std::printf("%s: tracking %.1f ms, cv::ORB(1000) %.1f ms, ratio %.2f\n", what, slam, orb, slam / orb);
 }
 
 void run(const char* folder) {
   cv::setNumThreads(1);
-  stillpoint::TumSequence sequence(folder, std::nullopt);
-  stillpoint::FilteredTracker tracker(stillpoint::FrameFilter<>(sequence.camera()),
-                                      examples::slam::Slam(sequence.camera(), examples::slam::SlamOptions{}));
+  TumSequence sequence(folder, std::nullopt);
+  FilteredTracker tracker(FrameFilter<>(sequence.camera()),
+                          examples::slam::Slam(sequence.camera(), examples::slam::SlamOptions{}));
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(1000);
   Milliseconds of_slam, of_orb;
   for (std::size_t i = 0; i < sequence.frames().size(); ++i) {
     const auto images = sequence.load(i);
     cv::Mat gray;
     cv::cvtColor(images.colour, gray, cv::COLOR_BGR2GRAY);
-    stillpoint::FrameView frame(gray, stillpoint::DepthView(images.depth, sequence.depth_factor()),
-                                sequence.frames()[i].timestamp_s);
+    FrameView frame(gray, DepthView(images.depth, sequence.depth_factor()), sequence.frames()[i].timestamp_s);
     measure(of_orb, [&] {
       std::vector<cv::KeyPoint> keypoints;
       cv::Mat descriptors;
@@ -84,6 +73,7 @@ void run(const char* folder) {
 }
 
 }  // namespace
+}  // namespace stillpoint::bench
 
 int main(int count, char** arguments) {
   try {
@@ -91,7 +81,7 @@ int main(int count, char** arguments) {
       std::fputs("usage: stillpoint_slam_time SEQUENCE\n", stderr);
       return 2;
     }
-    run(arguments[1]);
+    stillpoint::bench::run(arguments[1]);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stillpoint_slam_time: %s\n", error.what());

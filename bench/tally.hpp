@@ -6,14 +6,13 @@
 
 #include <opencv2/core/types.hpp>
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "accuracy_sequence.hpp"
+#include "quantiles.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/span.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
@@ -51,13 +50,6 @@ class Tally {
   }
 
  private:
-  /// The smallest value that 95 % do not exceed.
-  static std::optional<double> percentile_95(std::vector<double>& values) {
-    if (values.empty()) return std::nullopt;
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(std::ceil(0.95 * static_cast<double>(values.size()))) - 1];
-  }
-
   FilterScore score_;
   std::vector<Vector2f> pixels_;
   std::vector<double> error_mm_, error_deg_;

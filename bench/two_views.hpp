@@ -110,12 +110,4 @@ inline PoseError fundamental_error(const Matrix3d& fundamental, const TwoViews& 
   return best;
 }
 
-/// The middle one; NaN of none.
-inline double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace stillpoint::bench
