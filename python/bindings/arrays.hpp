@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "bindings.hpp"
 #include "stillpoint/core/error.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
@@ -34,8 +35,7 @@ inline std::string type_text(const py::array& array) { return py::str(array.dtyp
 /// @throws TypeError naming the argument unless it is a NumPy array
 inline py::array as_array(const py::handle& object, const std::string& name, const std::string& expected) {
   if (!py::isinstance<py::array>(object))
-    throw py::type_error(name + " is " + std::string(py::str(py::type::of(object).attr("__name__"))) + ", expected " +
-                         expected);
+    throw py::type_error(name + " is " + type_name(object) + ", expected " + expected);
   return py::reinterpret_borrow<py::array>(object);
 }
 
@@ -99,13 +99,12 @@ inline std::vector<stillpoint::Vector2f> pixels_of(const py::handle& keypoints) 
   std::vector<stillpoint::Vector2f> pixels;
   if (!py::isinstance<py::array>(keypoints)) {
     if (!py::isinstance<py::sequence>(keypoints) || py::isinstance<py::str>(keypoints))
-      throw py::type_error("keypoints are " + std::string(py::str(py::type::of(keypoints).attr("__name__"))) +
+      throw py::type_error("keypoints are " + type_name(keypoints) +
                            ", expected a NumPy array of float32 with shape (N, 2), or a list of cv2.KeyPoint");
     for (const py::handle& keypoint : py::reinterpret_borrow<py::sequence>(keypoints)) {
       const py::object pixel = py::getattr(keypoint, "pt", py::none());
       if (!py::isinstance<py::tuple>(pixel) || py::len(pixel) != 2)
-        throw py::type_error("keypoints[" + std::to_string(pixels.size()) + "] is " +
-                             std::string(py::str(py::type::of(keypoint).attr("__name__"))) +
+        throw py::type_error("keypoints[" + std::to_string(pixels.size()) + "] is " + type_name(keypoint) +
                              ", expected a cv2.KeyPoint; pixels are handed over as a NumPy array with shape (N, 2)");
       const auto [x, y] = pixel.cast<std::pair<double, double>>();
       pixels.emplace_back(static_cast<float>(x), static_cast<float>(y));

@@ -17,6 +17,9 @@ namespace stillpoint_python {
 
 namespace py = pybind11;
 
+/// As in "NoneType".
+inline std::string type_name(const py::handle& object) { return py::str(py::type::of(object).attr("__name__")); }
+
 /// A filter that threads of Python may share: each call waits for the one before it, and lets other threads run
 /// meanwhile.
 class Filter {

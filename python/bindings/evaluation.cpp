@@ -109,8 +109,7 @@ stillpoint::FilterScore recall(const py::iterable& frames) {
   stillpoint::FilterScore score;
   for (const py::handle& item : frames) {
     if (!py::isinstance<py::sequence>(item) || py::len(item) != 3)
-      throw py::type_error("frame " + std::to_string(score.frames()) + " is " +
-                           std::string(py::str(py::type::of(item).attr("__name__"))) +
+      throw py::type_error("frame " + std::to_string(score.frames()) + " is " + type_name(item) +
                            ", expected (labels, keypoints, keep)");
     const auto [labels, keypoints, keep] = item.cast<std::tuple<py::object, py::object, py::object>>();
     const py::array flags = as_array(keep, "keep", "a NumPy array of bool with shape (N,)");

@@ -106,8 +106,10 @@ Detection detection_of(float x, float y, float width, float height, int mobility
   const py::array cells = as_array(mask, "mask", expected);
   if (!holds<bool>(cells) && !holds<std::uint8_t>(cells))
     throw py::type_error("mask has dtype " + type_text(cells) + ", expected " + expected);
-  if (cells.ndim() != 2 || cells.size() == 0 || cells.size() > (1 << 26))
-    throw stillpoint::Error("mask has shape " + shape_text(cells) + ", expected (rows, columns)");
+  constexpr py::ssize_t kMostCells = 1 << 26;
+  if (cells.ndim() != 2 || cells.size() == 0 || cells.size() > kMostCells)
+    throw stillpoint::Error("mask has shape " + shape_text(cells) + ", expected (rows, columns) with 1 to " +
+                            std::to_string(kMostCells) + " cells");
   const py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast> packed(cells);
   stillpoint::BoxMask inside;
   inside.rows = static_cast<int>(cells.shape(0));

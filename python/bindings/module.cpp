@@ -3,6 +3,7 @@
 
 // The module stillpoint._core: errors, enums and the camera. The package stillpoint hands all of it on.
 
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -83,12 +84,14 @@ std::string camera_text(const Camera& camera) {
 void bind_camera(py::module_& module) {
   py::class_<Camera>(module, "Camera", "A camera with focal lengths and principal point in pixels.")
       .def(py::init([](double fx, double fy, double cx, double cy, int width, int height, const std::string& model,
-                       const std::vector<double>& distortion) {
-             return Camera(fx, fy, cx, cy, width, height, lens(model, distortion));
+                       const py::array_t<double, py::array::c_style | py::array::forcecast>& distortion) {
+             return Camera(fx, fy, cx, cy, width, height,
+                           lens(model, {distortion.data(), distortion.data() + distortion.size()}));
            }),
-           "model is pinhole, brown_conrady (k1 k2 p1 p2 and optionally k3) or equidistant (k1 k2 k3 k4).",
+           "model is pinhole, brown_conrady (k1 k2 p1 p2 and optionally k3) or equidistant (k1 k2 k3 k4). "
+           "distortion may be what cv2.calibrateCamera gives.",
            py::arg("fx"), py::arg("fy"), py::arg("cx"), py::arg("cy"), py::arg("width"), py::arg("height"),
-           py::arg("model") = "pinhole", py::arg("distortion") = std::vector<double>())
+           py::arg("model") = "pinhole", py::arg("distortion") = py::tuple())
       .def_property_readonly("fx", &Camera::fx)
       .def_property_readonly("fy", &Camera::fy)
       .def_property_readonly("cx", &Camera::cx)

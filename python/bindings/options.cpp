@@ -159,13 +159,15 @@ Value value_of(const std::string& name, const py::handle& object) {
       if (PyErr_Occurred() == nullptr) return static_cast<std::uint64_t>(large);
       PyErr_Clear();
     }
-    return PyLong_AsDouble(whole.ptr());
+    const double large = PyLong_AsDouble(whole.ptr());
+    if (PyErr_Occurred() == nullptr) return large;
+    PyErr_Clear();  // beyond a double
+    return overflow > 0 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
   }
   const double value = PyFloat_AsDouble(object.ptr());
   if (PyErr_Occurred() != nullptr) {
     PyErr_Clear();
-    throw py::type_error(name + " is " + std::string(py::str(py::type::of(object).attr("__name__"))) +
-                         ", expected a number, a word or a bool");
+    throw py::type_error(name + " is " + type_name(object) + ", expected a number, a word or a bool");
   }
   return value;
 }

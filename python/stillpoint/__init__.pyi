@@ -97,7 +97,7 @@ class Camera:
     """A camera with focal lengths and principal point in pixels."""
 
     def __init__(self, fx: float, fy: float, cx: float, cy: float, width: int, height: int, model: str = "pinhole",
-                 distortion: Sequence[float] = ()) -> None:
+                 distortion: Union[Sequence[float], npt.NDArray[np.float64]] = ()) -> None:
         """model is pinhole, brown_conrady (k1 k2 p1 p2 and optionally k3) or equidistant (k1 k2 k3 k4)."""
     @property
     def fx(self) -> float: ...

@@ -248,6 +248,8 @@ def test_cameras():
         stillpoint.Camera(525, 525, 320, 240, 640, 480, "equidistant", [0.1, float("nan"), 0, 0])
     lens = stillpoint.Camera(525, 526, 320, 240, 640, 480, "brown_conrady", [0.1, 0.2, 0, 0])
     assert (lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height) == (525, 526, 320, 240, 640, 480)
+    as_opencv = np.array([[0.1, 0.2, 0, 0, 0]])  # the shape that cv2.calibrateCamera gives
+    assert repr(stillpoint.Camera(525, 526, 320, 240, 640, 480, "brown_conrady", as_opencv)) == repr(lens)
     assert repr(lens) == "Camera(fx=525, fy=526, cx=320, cy=240, width=640, height=480, model='brown_conrady')"
     with pytest.raises(stillpoint.Error, match="none.yaml"):
         stillpoint.read_camera("none.yaml")
@@ -267,8 +269,9 @@ def test_detections(frames, camera):
         stillpoint.Detection(0, 0, 1, 1, 9)
     with pytest.raises(TypeError, match="mask has dtype float64"):
         stillpoint.Detection(0, 0, 1, 1, mask=np.ones((2, 2)))
-    with pytest.raises(stillpoint.Error, match=r"mask has shape \(4,\), expected \(rows, columns\)"):
-        stillpoint.Detection(0, 0, 1, 1, mask=np.ones(4, bool))
+    for shape, text in (((4,), r"\(4,\)"), ((0, 5), r"\(0, 5\)")):
+        with pytest.raises(stillpoint.Error, match=f"mask has shape {text}, expected .rows, columns. with 1 to 67108864 cells"):
+            stillpoint.Detection(0, 0, 1, 1, mask=np.ones(shape, bool))
     for name, value, expected in [("x", np.nan, "a finite number of pixels"), ("y", np.inf, "a finite number of pixels"),
                                   ("width", np.nan, "0 or more pixels"), ("height", -1, "0 or more pixels"),
                                   ("width", np.inf, "0 or more pixels"), ("confidence", np.nan, "a number from 0 to 1"),

@@ -69,6 +69,8 @@ def test_each_option_of_the_document(options):
     ("keep_floor.fewest_features", -1, "keep_floor.fewest_features is -1, expected a whole number"),
     ("ego_motion.seed", -1, "ego_motion.seed is -1, expected a whole number from 0 to 18446744073709551615"),
     ("ego_motion.seed", 2**64, "ego_motion.seed is .*, expected a whole number"),
+    ("classifier.dynamic_shift", 10**400, "classifier.dynamic_shift is inf, expected a number"),
+    ("classifier.dynamic_shift", -10**400, "classifier.dynamic_shift is -inf, expected a number"),
     ("depth_noise.model", "lidar", "depth_noise.model is 'lidar', expected kinect or stereo or tof"),
     ("depth_noise.model", 1, "depth_noise.model is 1, expected kinect or stereo or tof"),
 ])
