@@ -16,6 +16,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "stillpoint_ros/mover_messages.hpp"
@@ -56,9 +57,11 @@ class RosParameters {
  private:
   template <class Value>
   bool given(const std::string& name, Value& found) const {
-    if (node_.getParam(ros_name(name), found)) return true;
     XmlRpc::XmlRpcValue other;
     if (!node_.getParam(ros_name(name), other)) return false;
+    // Of a number with a fraction, getParam would make a whole one.
+    const bool is_fraction = std::is_same_v<Value, int> && other.getType() == XmlRpc::XmlRpcValue::TypeDouble;
+    if (!is_fraction && node_.getParam(ros_name(name), found)) return true;
     std::ostringstream text;
     text << other;
     throw stillpoint::Error("parameter " + name + " is '" + text.str() + "', expected " + type_name(found));
@@ -94,7 +97,7 @@ class StillpointNode {
     const std::vector<std::string> known = core_.start(parameters);
     const std::string unknown = stillpoint_ros::unknown_parameter(parameters.given(), known);
     if (!unknown.empty())
-      throw stillpoint::Error("parameter " + unknown + " is unknown; docs/tuning.md lists the options. " +
+      throw stillpoint::Error("parameter " + unknown + " is unknown; docs/ros.md lists the parameters. " +
                               "It stays on the parameter server: rosparam delete " + parameters.server_name(unknown));
 
     const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
@@ -129,6 +132,7 @@ class StillpointNode {
   void report() {
     const stillpoint_ros::Report report = core_.report();
     for (const std::string& sentence : report.missing) ROS_WARN("%s", sentence.c_str());
+    if (!report.hint.empty()) ROS_WARN("%s", report.hint.c_str());
     diagnostics_.publish(stillpoint_ros::diagnostics<diagnostic_msgs::DiagnosticArray>(
         report, ros::this_node::getName(), ros::Time::now()));
   }

@@ -4,6 +4,7 @@
 
 // A detection of vision_msgs, without ROS, and what the prior takes of it.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -33,12 +34,18 @@ struct ClassNames {
   /// In the list of classes; -1 where it has none of that name.
   int index_of(const std::string& class_id) const {
     if (const int number = number_of(class_id); classes.names(number)) return number;
+    const std::string name = spaced(class_id);
     for (std::size_t i = 0; i < classes.size(); ++i)
-      if (!class_id.empty() && classes[i] == class_id) return static_cast<int>(i);
+      if (!name.empty() && spaced(classes[i]) == name) return static_cast<int>(i);
     return -1;
   }
 
  private:
+  /// Some lists have "traffic light", others "traffic_light"; to `mobility` both are the same, too.
+  static std::string spaced(std::string name) {
+    std::replace(name.begin(), name.end(), '_', ' ');
+    return name;
+  }
   static int number_of(const std::string& class_id) {
     const bool is_number =
         !class_id.empty() && class_id.size() < 6 && class_id.find_first_not_of("0123456789") == std::string::npos;

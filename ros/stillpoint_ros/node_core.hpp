@@ -38,6 +38,7 @@ struct Report {
   std::string message;
   std::vector<std::pair<std::string, std::string>> values;
   std::vector<std::string> missing;  ///< what keeps frames from being judged, one sentence each
+  std::string hint;                  ///< the filter's last one since the last report; empty: none
 };
 
 /// Takes messages from any thread, judges frames in a thread of its own and hands the answers to `publish` there.
@@ -96,11 +97,13 @@ class NodeCore {
       return whole == 0 ? std::string("n/a")
                         : stillpoint::format_fixed(100.0 * static_cast<double>(part) / static_cast<double>(whole), 1);
     };
-    report.level = !report.missing.empty() ? Report::error : !hint_.empty() || judged_ == 0 ? Report::warn : Report::ok;
+    report.hint = std::exchange(hint_, {});
+    const bool is_doubtful = !report.hint.empty() || judged_ == 0;
+    report.level = !report.missing.empty() ? Report::error : is_doubtful ? Report::warn : Report::ok;
     if (!report.missing.empty())
       report.message = report.missing.front();
-    else if (!hint_.empty())
-      report.message = hint_;
+    else if (!report.hint.empty())
+      report.message = report.hint;
     else
       report.message = judged_ > 0 ? "frames are judged" : "no frame was judged: " + status;
     report.values = {{"frames", std::to_string(frames_)},
@@ -189,7 +192,7 @@ class NodeCore {
     last_status_ = answer.status;
     last_filter_ms_ = answer.filter_ms;
     longest_latency_s_ = std::max(longest_latency_s_, latency_s);
-    hint_ = answer.hint;
+    if (*answer.hint != '\0') hint_ = answer.hint;
   }
 
   std::mutex mutex_;  // of all but the session, which is the worker's
@@ -203,7 +206,7 @@ class NodeCore {
   std::size_t objects_ = 0, movers_ = 0;
   double longest_latency_s_ = 0.0, last_filter_ms_ = 0.0;
   stillpoint::Status last_status_ = stillpoint::Status::first_frame;
-  std::string hint_;
+  std::string hint_;  // the last one since the last report
   MaskSession session_;
   Publish publish_;
   std::unique_ptr<LatestWorker<Job>> worker_;  // the last: its thread uses the others

@@ -41,6 +41,9 @@ inline cv::Mat pixels_of(const RawImage& image, int type) {
     throw stillpoint::Error("step is " + std::to_string(image.step_bytes) + " bytes, expected at least " +
                             std::to_string(row_bytes) + " for " + std::to_string(image.width) + " pixels of " +
                             image.encoding);
+  if (image.step_bytes % CV_ELEM_SIZE1(type) != 0)
+    throw stillpoint::Error("step is " + std::to_string(image.step_bytes) + " bytes, expected a multiple of " +
+                            std::to_string(CV_ELEM_SIZE1(type)) + " for " + image.encoding);
   const std::size_t least_bytes = (static_cast<std::size_t>(image.height) - 1) * image.step_bytes + row_bytes;
   if (image.data == nullptr || image.size_bytes < least_bytes)
     throw stillpoint::Error("data has " + std::to_string(image.size_bytes) + " bytes, expected at least " +

@@ -48,6 +48,7 @@ fails_with() {
 }
 fails_with 'parameter gate.false_positive_rate is 5, expected a number from 0.000001 to 0.5' __name:=wrong _gate/false_positive_rate:=5
 fails_with "parameter gate.false_positive_rate is 'high', expected a number" __name:=typed _gate/false_positive_rate:=high
+fails_with "parameter features is '1000.5', expected a whole number" __name:=fraction _features:=1000.5
 fails_with "parameter follow_movers is 'often', expected true or false" __name:=typed _follow_movers:=often
 fails_with 'parameter margin is unknown' __name:=misspelled _margin:=5
 fails_with 'It stays on the parameter server: rosparam delete /misspelled/margin' __name:=misspelled

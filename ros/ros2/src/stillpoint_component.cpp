@@ -93,7 +93,7 @@ class StillpointComponent : public rclcpp::Node {
     names_.classes = stillpoint::ClassList::named(parameters.get("classes", std::string("coco")));
     const std::string unknown = stillpoint_ros::unknown_parameter(parameters.given(), known);
     if (!unknown.empty())
-      throw stillpoint::Error("parameter " + unknown + " is unknown; docs/tuning.md lists the options");
+      throw stillpoint::Error("parameter " + unknown + " is unknown; docs/ros.md lists the parameters");
 
     image_in_ = image_transport::create_subscription(
         this, input_topic("image"), [this](const Image::ConstSharedPtr& image) { core_.add_image(raw(image)); },
@@ -169,6 +169,7 @@ class StillpointComponent : public rclcpp::Node {
   void report() {
     const stillpoint_ros::Report report = core_.report();
     for (const std::string& sentence : report.missing) RCLCPP_WARN(get_logger(), "%s", sentence.c_str());
+    if (!report.hint.empty()) RCLCPP_WARN(get_logger(), "%s", report.hint.c_str());
     diagnostics_->publish(
         stillpoint_ros::diagnostics<diagnostic_msgs::msg::DiagnosticArray>(report, get_fully_qualified_name(), now()));
   }

@@ -34,6 +34,7 @@ TEST(Detections, ANumberIsLookedUpInTheListOfClasses) {
 TEST(Detections, ANameOfTheListHasItsNumber) {
   EXPECT_EQ(detection_of({"chair", 1, 0, 0, 1, 1}, ClassNames()).class_index, 56);
   EXPECT_EQ(detection_of({"56", 1, 0, 0, 1, 1}, ClassNames()).class_index, 56);
+  EXPECT_EQ(detection_of({"traffic_light", 1, 0, 0, 1, 1}, ClassNames()).class_index, 9) << "COCO's \"traffic light\"";
   for (const char* none : {"", "80", "unicorn", "123456789012"})
     EXPECT_EQ(detection_of({none, 1, 0, 0, 1, 1}, ClassNames()).class_index, -1) << none;
 }

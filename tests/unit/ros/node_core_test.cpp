@@ -307,6 +307,31 @@ TEST_F(NodeCoreTest, AnswersEachFrameAndReports) {
   EXPECT_EQ(value(core.report(), "frames"), "0") << "each frame is reported once";
 }
 
+// The next report comes frames later, and the one behind it no longer speaks of it.
+TEST_F(NodeCoreTest, ReportsAHintOfOneFrameOnce) {
+  start();
+  for (std::size_t i = 0; i < 4; ++i) {
+    Frame frame = frames()[i];
+    frame.messages.camera.stamp_s = frame.messages.image.stamp_s;
+    if (i >= 1) frame.messages.camera.k[0] += 1;
+    send(frame);
+    ASSERT_TRUE(wait_for(i + 1));
+  }
+  const std::string hint = "camera_info is of another camera than before: the filter began anew.";
+  std::string told;
+  int frames_told = 0;
+  for (int attempt = 0; attempt < 1000 && frames_told < 4; ++attempt) {
+    const Report report = core.report();
+    frames_told += std::stoi(value(report, "frames"));
+    if (report.hint.empty()) continue;
+    told += report.hint;
+    EXPECT_EQ(report.level, Report::warn);
+    EXPECT_EQ(report.message, hint);
+  }
+  EXPECT_EQ(told, hint);
+  EXPECT_TRUE(core.report().hint.empty());
+}
+
 TEST_F(NodeCoreTest, SaysWhatIsMissing) {
   start();
   core.add_image(frames()[0].messages.image);

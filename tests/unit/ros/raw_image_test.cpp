@@ -92,6 +92,8 @@ TEST(RawImage, WhatIsWrongIsNamed) {
             "encoding is 'bayer_rggb8', expected 16UC1 (millimetres) or 32FC1 (metres)");
   const Message narrow("bgr8", 5, std::vector<std::uint8_t>(12));
   EXPECT_EQ(error_of([&] { image_of(narrow.image); }), "step is 5 bytes, expected at least 6 for 2 pixels of bgr8");
+  const Message odd("16UC1", 5, std::vector<std::uint8_t>(10));
+  EXPECT_EQ(error_of([&] { depth_of(odd.image); }), "step is 5 bytes, expected a multiple of 2 for 16UC1");
   const Message broken("mono8", 3, {1, 2, 99, 3});
   EXPECT_EQ(error_of([&] { image_of(broken.image); }), "data has 4 bytes, expected at least 5");
   Message empty("mono8", 2, {1, 2, 3, 4});
