@@ -54,13 +54,11 @@ stillpoint::ImageView view(const detail::Image& image) {
 std::optional<stillpoint::Pose> rigid_motion(const double* rows) {
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(rows);
   constexpr double kRounding = 1e-3;  // of poses that a host keeps in single precision
-  const stillpoint::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  if (!matrix.allFinite() || !(rotation * rotation.transpose()).isIdentity(kRounding) ||
-      !(rotation.determinant() > 0) || !matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kRounding))
-    return std::nullopt;
   stillpoint::Pose pose = stillpoint::Pose::Identity();
-  pose.linear() = rotation;
+  pose.linear() = matrix.topLeftCorner<3, 3>();
   pose.translation() = matrix.topRightCorner<3, 1>();
+  if (!matrix.row(3).isApprox(Eigen::RowVector4d(0, 0, 0, 1), kRounding) || !stillpoint::is_rigid(pose))
+    return std::nullopt;
   return stillpoint::orthonormalized(pose);
 }
 
@@ -125,9 +123,9 @@ class Engine {
     std::copy(of_feature.begin(), of_feature.end(), weights);
   }
 
-  void paint_mask(int margin_px, const Pixels& pixels) {
+  void paint_mask(int radius_px, const Pixels& pixels) {
     if (result_ == nullptr) return fill(pixels);
-    result_->mask(mask_, std::max(margin_px, 0));
+    result_->mask(mask_, std::max(radius_px, 0));
     copy_mask(pixels);
   }
 
@@ -228,8 +226,8 @@ void copy_weights(const Engine& engine, float* weights, std::size_t size) noexce
   std::fill_n(weights, size, 1.0f);
 }
 
-void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept try {
-  engine.paint_mask(margin_px, pixels);
+void paint_mask(Engine& engine, int radius_px, const Pixels& pixels) noexcept try {
+  engine.paint_mask(radius_px, pixels);
 } catch (...) {
   engine.fill(pixels);
 }

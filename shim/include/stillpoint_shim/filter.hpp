@@ -67,9 +67,9 @@ class Filter {
     detail::copy_weights(*engine_, weights.data(), weights.size());
   }
 
-  /// Paints the last answer as CV_8UC1 of the camera's size: 255 keeps, 0 within `margin_px` of a dropped feature.
+  /// Paints the last answer as CV_8UC1 of the camera's size: 255 keeps, 0 within `radius_px` of a dropped feature.
   /// Before the first frame all of it is 255.
-  void mask(cv::Mat& mask, int margin_px = 12) const { detail::paint_mask(*engine_, margin_px, pixels_of(mask)); }
+  void mask(cv::Mat& mask, int radius_px = 12) const { detail::paint_mask(*engine_, radius_px, pixels_of(mask)); }
 
   /// Paints where the coming frame should be looked at, as CV_8UC1 of the camera's size: 255 keeps, 0 drops. For a host
   /// that extracts features under a mask, so that its budget goes to static features; all of it is 255 where the last

@@ -127,7 +127,7 @@ STILLPOINT_SHIM_API Answer filter_frame(Engine& engine, const Image& image, cons
 /// Of the last frame; `size` is its number of keypoints.
 STILLPOINT_SHIM_API void copy_weights(const Engine& engine, float* weights, std::size_t size) noexcept;
 /// Of the camera's size: 255 keeps, 0 drops.
-STILLPOINT_SHIM_API void paint_mask(Engine& engine, int margin_px, const Pixels& pixels) noexcept;
+STILLPOINT_SHIM_API void paint_mask(Engine& engine, int radius_px, const Pixels& pixels) noexcept;
 STILLPOINT_SHIM_API void paint_predicted_keep_mask(Engine& engine, double timestamp_s, int margin_px,
                                                    const Pixels& pixels) noexcept;
 /// @param timestamp_s  of the frame that was looked at; null: the coming one
