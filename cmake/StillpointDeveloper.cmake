@@ -4,15 +4,8 @@
 # For our own tests, examples and benchmarks. A host that adds this project as a subfolder gets none of it.
 
 if(NOT STILLPOINT_WITH_OPENCV)
-  message(FATAL_ERROR "stillpoint: tests, examples and benchmarks need OpenCV; STILLPOINT_WITH_OPENCV is OFF")
-endif()
-
-if(PROJECT_IS_TOP_LEVEL)
-  find_program(STILLPOINT_CCACHE ccache DOC "Compiler cache, used where it is found")
-  mark_as_advanced(STILLPOINT_CCACHE)
-  if(STILLPOINT_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${STILLPOINT_CCACHE}")
-  endif()
+  message(FATAL_ERROR "stillpoint: tests, examples, benchmarks and the ROS nodes need OpenCV, and STILLPOINT_WITH_OPENCV "
+    "is OFF; set STILLPOINT_BUILD_TESTS, _EXAMPLES, _BENCHMARKS and _ROS to OFF")
 endif()
 
 # What each of our own targets is built with.

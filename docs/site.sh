@@ -7,8 +7,9 @@
 # in the sources or in the site. From any folder:
 #   bash docs/site.sh
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-site=${1:-build/site}
+root=$(realpath -- "$(dirname "${BASH_SOURCE[0]}")/..")
+site=$(realpath -m -- "${1:-$root/build/site}")
+cd "$root"
 
 bash tests/install_packages.sh mkdocs python3 doxygen g++ cmake ninja-build libeigen3-dev < /dev/null
 
@@ -44,8 +45,9 @@ find "$site/pages" -name '*.md' | while IFS= read -r page; do
 done
 cp -r "$site/reference/html" "$site/pages/reference"
 # Doxygen links to #nested-classes on pages that have none.
-grep -l 'href="#nested-classes"' "$site"/pages/reference/*.html | xargs -r grep -L 'name="nested-classes"' |
-  xargs -r sed -i 's/ href="#nested-classes"//'
+for page in "$site"/pages/reference/*.html; do
+  grep -q 'name="nested-classes"' "$page" || sed -i 's/ href="#nested-classes"//' "$page"
+done
 
 # section TITLE PAGE...: a part of the list of pages.
 section() {

@@ -12,15 +12,16 @@
 # packages unless told. Exit status: that of CTest.
 #   bash tests/arm64.sh -R RigidMotion
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
-mirror='' folder=build/arm64
+root=$(realpath -- "$(dirname "${BASH_SOURCE[0]}")/..")
+mirror='' folder=$root/build/arm64
 while [[ ${1:-} == --mirror || ${1:-} == --folder ]]; do
   [[ -n ${2:-} ]] || { echo "$1 needs a value" >&2; exit 2; }
   [[ $1 == --mirror ]] && mirror=$2 || folder=$2
   shift 2
 done
 mkdir -p "$folder"
-folder=$(realpath "$folder")
+folder=$(realpath "$folder")  # the caller's
+cd "$root"
 sysroot=$folder/sysroot
 jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 started=$SECONDS

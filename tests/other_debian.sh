@@ -12,7 +12,7 @@
 # unless told. Exit status: that of CTest.
 #   bash tests/other_debian.sh -R RigidMotion
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+project=$(realpath -- "$(dirname "${BASH_SOURCE[0]}")/..")
 suite=trixie mirror='' folder=''
 while [[ ${1:-} == --suite || ${1:-} == --mirror || ${1:-} == --folder ]]; do
   [[ -n ${2:-} ]] || { echo "$1 needs a value" >&2; exit 2; }
@@ -24,9 +24,11 @@ while [[ ${1:-} == --suite || ${1:-} == --mirror || ${1:-} == --folder ]]; do
   shift 2
 done
 [[ $(id -u) == 0 ]] || { echo 'other_debian.sh must be root: it calls chroot' >&2; exit 2; }
-folder=${folder:-build/$suite}
+folder=${folder:-$project/build/$suite}
 mkdir -p "$folder/root"
-root=$(realpath "$folder/root")
+folder=$(realpath "$folder")  # the caller's
+root=$folder/root
+cd "$project"
 jobs=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
 started=$SECONDS
 took() { echo "tests/other_debian.sh $suite: $1 after $((SECONDS - started)) s"; }

@@ -42,6 +42,14 @@ nobody_writes() {
 }
 
 offences=$({
+  # The version is that of version.hpp wherever somebody else's format asks for it.
+  if [[ -f include/stillpoint/version.hpp ]]; then
+    version=$(sed -nE 's/^#define STILLPOINT_VERSION "(.*)"$/\1/p' include/stillpoint/version.hpp)
+    [[ ! -f ros/ros2/package.xml ]] || grep -qF "<version>$version</version>" ros/ros2/package.xml ||
+      echo "ros/ros2/package.xml:1: expected version $version, as in version.hpp"
+    [[ ! -f CITATION.cff ]] || grep -qx "version: $version" CITATION.cff ||
+      echo "CITATION.cff:1: expected version $version, as in version.hpp"
+  fi
   awk 'FNR <= 3 && /SPDX-License-Identifier: MIT/ { marked[FILENAME] = 1 }
     END { for (i = 1; i < ARGC; ++i) if (!(ARGV[i] in marked)) print ARGV[i] ":1: no line \x27SPDX-License-Identifier: MIT\x27" }' \
     "${files[@]}"
