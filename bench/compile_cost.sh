@@ -39,7 +39,7 @@ cases=(
 # measure FLAGS SOURCE: user seconds, system seconds and peak kilobytes of one compilation.
 measure() {
   # shellcheck disable=SC2086  # flags are several words
-  /usr/bin/time -f '%U %S %M' -o "$measured" "$compiler" $1 "${flags[@]}" -x c++ -c -o /dev/null - <<< "$2"
+  /usr/bin/time -q -f '%U %S %M' -o "$measured" "$compiler" $1 "${flags[@]}" -x c++ -c -o /dev/null - <<< "$2" || return 1
   cat "$measured"
 }
 measured=$(mktemp)
@@ -47,8 +47,8 @@ trap 'rm -f "$measured"' EXIT
 
 for ((round = 0; round < repetitions; ++round)); do
   for ((i = 0; i < ${#cases[@]}; i += 3)); do
-    # shellcheck disable=SC2046
-    printf '%s\t%s %s %s\n' $((i / 3)) $(measure "${cases[i + 1]}" "${cases[i + 2]}")
+    numbers=$(measure "${cases[i + 1]}" "${cases[i + 2]}") || { echo "${cases[i]}: does not compile" >&2; exit 1; }
+    printf '%s\t%s\n' $((i / 3)) "$numbers"
   done
 done |
   LC_ALL=C awk -F '\t' -v names="$(for ((i = 0; i < ${#cases[@]}; i += 3)); do printf '%s\t' "${cases[i]}"; done)" \

@@ -24,6 +24,7 @@
 #include "conditions.hpp"
 #include "parallel.hpp"
 #include "stillpoint/core/error.hpp"
+#include "stillpoint/evaluation/error_statistics.hpp"
 #include "stillpoint/options/options_file.hpp"
 #include "stillpoint/policies/with_movers.hpp"
 
@@ -73,29 +74,27 @@ void run_once(Row& row, std::size_t run, const Arguments& arguments) {
     row.labels[run] = ate_rmse_m(sequence, run_odometry(sequence, examples::OracleFilter{}, nothing));
 }
 
-struct Spread {
+/// Over the runs of a condition.
+struct Summary {
   double mean = 0, median = 0, least = 0, most = 0;
 };
 
 template <class Values, class Read>
-std::optional<Spread> spread(const Values& values, Read&& read) {
+std::optional<Summary> summary(const Values& values, Read&& read) {
   std::vector<double> known;
   for (const auto& value : values)
     if (const std::optional<double> number = read(value)) known.push_back(*number);
   if (known.empty()) return std::nullopt;
-  std::sort(known.begin(), known.end());
-  double sum = 0;
-  for (const double value : known) sum += value;
-  const std::size_t n = known.size();
-  return Spread{sum / static_cast<double>(n), 0.5 * (known[(n - 1) / 2] + known[n / 2]), known.front(), known.back()};
+  const ErrorStatistics statistics = error_statistics(known);
+  return Summary{statistics.mean, statistics.median, statistics.min, statistics.max};
 }
 
 /// @param figure  what stands before the brackets
-std::string cell(const std::optional<Spread>& spread, double Spread::*figure, int digits, double scale = 1.0) {
-  if (!spread) return "n/a";
+std::string cell(const std::optional<Summary>& runs, double Summary::*figure, int digits, double scale = 1.0) {
+  if (!runs) return "n/a";
   char text[96];
-  std::snprintf(text, sizeof text, "%.*f (%.*f to %.*f)", digits, scale * ((*spread).*figure), digits,
-                scale * spread->least, digits, scale * spread->most);
+  std::snprintf(text, sizeof text, "%.*f (%.*f to %.*f)", digits, scale * ((*runs).*figure), digits,
+                scale * runs->least, digits, scale * runs->most);
   return text;
 }
 
@@ -106,18 +105,18 @@ void print(const std::vector<Row>& rows) {
   const auto number = [](const std::optional<double>& value) { return value; };
   for (const Row& row : rows) {
     const auto of_filter = [&](std::optional<double> Outcome::*figure) {
-      return spread(row.outcomes, [figure](const ConditionOutcome& outcome) { return outcome.filter.*figure; });
+      return summary(row.outcomes, [figure](const ConditionOutcome& outcome) { return outcome.filter.*figure; });
     };
-    const auto filtered = spread(row.outcomes, [](const ConditionOutcome& outcome) { return outcome.ate_filtered_m; });
+    const auto filtered = summary(row.outcomes, [](const ConditionOutcome& outcome) { return outcome.ate_filtered_m; });
     std::printf("| %s | %s | %zu | %s | %s | %s | %s | %s | %s | %s |\n", row.folder.filename().string().c_str(),
                 row.condition.name.c_str(), row.outcomes.size(),
-                cell(of_filter(&Outcome::recall_percent), &Spread::mean, 3, 0.01).c_str(),
-                cell(of_filter(&Outcome::false_positives_percent), &Spread::mean, 4, 0.01).c_str(),
-                cell(of_filter(&Outcome::p95_mm), &Spread::mean, 1).c_str(),
-                cell(of_filter(&Outcome::p95_deg), &Spread::mean, 2).c_str(),
-                cell(filtered, &Spread::median, 4).c_str(),
-                cell(spread(row.labels, number), &Spread::median, 4).c_str(),
-                cell(spread(row.unfiltered, number), &Spread::median, 4).c_str());
+                cell(of_filter(&Outcome::recall_percent), &Summary::mean, 3, 0.01).c_str(),
+                cell(of_filter(&Outcome::false_positives_percent), &Summary::mean, 4, 0.01).c_str(),
+                cell(of_filter(&Outcome::p95_mm), &Summary::mean, 1).c_str(),
+                cell(of_filter(&Outcome::p95_deg), &Summary::mean, 2).c_str(),
+                cell(filtered, &Summary::median, 4).c_str(),
+                cell(summary(row.labels, number), &Summary::median, 4).c_str(),
+                cell(summary(row.unfiltered, number), &Summary::median, 4).c_str());
   }
 }
 

@@ -61,6 +61,7 @@ inline void add_noise(cv::Mat& image, double sigma, std::uint64_t seed) {
 }
 
 /// Quantiles of the Poisson distribution of a mean: its values at 1024 probabilities, in the middle of each slice.
+/// @param mean  below 700: of more, e^−mean is too small for a double
 inline std::array<std::uint16_t, 1024> poisson_quantiles(double mean) {
   std::array<std::uint16_t, 1024> values{};
   double probability = std::exp(-mean), cumulative = probability;
@@ -121,7 +122,7 @@ inline Degradation flicker(std::uint64_t seed) {
 inline Degradation dark(std::uint64_t seed) {
   constexpr double kPhotons = 4.0;
   std::vector<std::array<std::uint16_t, 1024>> quantiles;
-  for (int value = 0; value < 256; ++value) quantiles.push_back(detail::poisson_quantiles(kPhotons * value));
+  for (int value = 0; value <= 64; ++value) quantiles.push_back(detail::poisson_quantiles(kPhotons * value));
   return [quantiles, random = Random(seed)](RawFrame& frame) mutable {
     detail::map_values(frame.colour, [](double value) { return value / 4.0; });
     for (int v = 0; v < frame.colour.rows; ++v) {

@@ -25,6 +25,7 @@ tables::Row row_of(const std::string& line) {
   tables::Row row;
   if (!fields.empty()) row.sequence = fields[0];
   if (fields.size() < 4) return row;
+  row.is_here = true;
   const stillpoint::Trajectory reference = stillpoint::read_trajectory(fields[1]);
   row.filtered = tables::errors_of(reference, stillpoint::read_trajectory(fields[2]));
   row.unfiltered = tables::errors_of(reference, stillpoint::read_trajectory(fields[3]));

@@ -58,10 +58,11 @@ inline std::optional<Errors> errors_of(const stillpoint::Trajectory& reference, 
                 error_statistics(relative.rotation_deg)};
 }
 
-/// A sequence that was run; nothing where it is not there.
+/// A sequence. Errors are empty where a tracker gave too few poses to align.
 struct Row {
   std::string sequence;
   std::optional<Errors> filtered, unfiltered;
+  bool is_here = false;  ///< false: it was not run
 };
 
 inline std::string number(double value, int digits = 4) {
@@ -73,7 +74,7 @@ namespace detail {
 using Member = stillpoint::ErrorStatistics Errors::*;
 
 inline std::string figures(const std::optional<Errors>& errors, Member member) {
-  if (!errors) return " – | – | – | – |";
+  if (!errors) return " lost | – | – | – |";
   const stillpoint::ErrorStatistics& s = (*errors).*member;
   return ' ' + number(s.rmse) + " | " + number(s.mean) + " | " + number(s.median) + " | " + number(s.std) + " |";
 }
@@ -102,7 +103,7 @@ inline std::string error_table(const std::string& title, stillpoint::span<const 
       "mean | median | SD |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const Row& row : rows) {
     text += "| " + row.sequence + " |";
-    if (!row.filtered && !row.unfiltered)
+    if (!row.is_here)
       text += " the sequence is not here | | | | | | | | | | | |\n";
     else
       text += detail::figures(row.unfiltered, member) + detail::figures(row.filtered, member) +
@@ -118,13 +119,16 @@ inline std::string comparison_table(stillpoint::span<const Row> rows) {
       "ORB-SLAM3 | "
       "DynaSLAM | NGD-SLAM | MVS-SLAM (claim) |\n|---|---|---|---|---|---|---|\n";
   const auto cell = [](double value) { return value > 0 ? number(value) : std::string("–"); };
+  const auto ours = [](const Row& row, const std::optional<Errors>& errors) {
+    return errors ? number(errors->ate_m.rmse) : std::string(row.is_here ? "lost" : "not here");
+  };
   for (const Row& row : rows) {
     Published known{"", 0, 0, 0, 0};
     for (const Published& published : kPublished)
       if (row.sequence == published.sequence) known = published;
-    text += "| " + row.sequence + " | " + (row.unfiltered ? number(row.unfiltered->ate_m.rmse) : "not here") + " | " +
-            (row.filtered ? number(row.filtered->ate_m.rmse) : "not here") + " | " + cell(known.orb_slam3) + " | " +
-            cell(known.dyna_slam) + " | " + cell(known.ngd_slam) + " | " + cell(known.mvs_slam) + " |\n";
+    text += "| " + row.sequence + " | " + ours(row, row.unfiltered) + " | " + ours(row, row.filtered) + " | " +
+            cell(known.orb_slam3) + " | " + cell(known.dyna_slam) + " | " + cell(known.ngd_slam) + " | " +
+            cell(known.mvs_slam) + " |\n";
   }
   return text + '\n';
 }
@@ -148,7 +152,7 @@ inline std::string as_csv(stillpoint::span<const Row> rows) {
       const std::optional<Errors>& errors = is_filtered ? row.filtered : row.unfiltered;
       const std::string begin = row.sequence + (is_filtered ? ",with," : ",without,");
       if (!errors) {
-        text += begin + "not here,,,,,\n";
+        text += begin + (row.is_here ? "lost" : "not here") + ",,,,,\n";
         continue;
       }
       const std::pair<const char*, const stillpoint::ErrorStatistics*> metrics[] = {

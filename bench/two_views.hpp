@@ -27,8 +27,9 @@ struct TwoViewOptions {
   std::uint64_t seed = 1;
 };
 
-/// Points 1 to 5 m away; the camera turns by up to 5 degrees and moves by 15 cm. Outliers are off by up to 40 px and
-/// 0.5 m. Depth has a Kinect's noise.
+/// Points 1 to 5 m away; the camera turns by up to 5 degrees and moves by 15 cm. Outliers are found up
+/// to 40 px from their place in the reference image, with a depth that is off by up to 0.5 m. Depth has a Kinect's
+/// noise.
 struct TwoViews {
   Camera camera{525, 525, 319.5, 239.5, 640, 480};
   Pose current_from_reference = Pose::Identity();

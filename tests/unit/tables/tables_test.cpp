@@ -70,9 +70,20 @@ TEST(Tables, ASequenceThatIsNotHereSaysSo) {
   EXPECT_NE(tables::as_csv(rows).find("walking_xyz,with,not here"), std::string::npos);
 }
 
+TEST(Tables, ATrackerThatGaveNoPosesIsLostAndNotMissing) {
+  tables::Errors with;
+  with.ate_m.rmse = 0.25;
+  const std::vector<tables::Row> rows = {{"walking_xyz", with, {}, true}};
+  EXPECT_NE(
+      tables::error_table("Table 1", rows, &tables::Errors::ate_m).find("| walking_xyz | lost | – | – | – | 0.2500 |"),
+      std::string::npos);
+  EXPECT_NE(tables::comparison_table(rows).find("| walking_xyz | lost | 0.2500 | 0.2995 |"), std::string::npos);
+  EXPECT_NE(tables::as_csv(rows).find("walking_xyz,without,lost,,,,,"), std::string::npos);
+}
+
 // Bonn's reference is a body on the camera: a rotation of the camera moves it in another way.
 TEST(Tables, SayThatBonnsPosesAreNotTheCameras) {
-  std::vector<tables::Row> rows = {{"desk", tables::Errors{}, tables::Errors{}}, {"bonn_crowd", {}, {}}};
+  std::vector<tables::Row> rows = {{"desk", tables::Errors{}, tables::Errors{}, true}, {"bonn_crowd", {}, {}}};
   EXPECT_EQ(tables::notes(rows), "") << "not here: there is nothing to say";
   rows[1].filtered = tables::Errors{};
   EXPECT_NE(tables::notes(rows).find("bonn_*"), std::string::npos);
@@ -83,7 +94,7 @@ TEST(Tables, ImprovementIsThatOfThePaper) {
   tables::Errors with, without;
   with.ate_m.rmse = 0.25;
   without.ate_m.rmse = 1.0;
-  const std::vector<tables::Row> rows = {{"desk", with, without}};
+  const std::vector<tables::Row> rows = {{"desk", with, without, true}};
   EXPECT_NE(tables::error_table("Table 1", rows, &tables::Errors::ate_m).find("| 75.00 |"), std::string::npos);
 }
 
