@@ -13,6 +13,7 @@
 #include <exception>
 #include <vector>
 
+#include "stillpoint/core/error.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/io/tum_sequence.hpp"
 #include "stillpoint/stillpoint.hpp"
@@ -41,8 +42,10 @@ void run(const stillpoint::TumSequence& sequence, bool is_under_mask) {
     for (const cv::KeyPoint& keypoint : keypoints) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
     score.add_frame(sequence.load_labels(i), pixels, result.keep());
   }
-  const auto a_frame = [&sequence](std::size_t count) {
-    return static_cast<double>(count) / static_cast<double>(sequence.frames().size());
+  if (score.frames() < 2)
+    throw stillpoint::Error(sequence.folder().string() + ": found one frame, expected more: the first is not counted");
+  const auto a_frame = [&score](std::size_t count) {
+    return static_cast<double>(count) / static_cast<double>(score.frames() - 1);
   };
   const stillpoint::DropCount moving = score.moving(), background = score.background();
   std::printf("  %-11s  static: %5.1f found, %5.1f kept   moving: %5.1f found, %5.1f kept %s\n",

@@ -18,6 +18,7 @@
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
+#include "told_motion.hpp"
 
 namespace examples {
 
@@ -64,7 +65,7 @@ class KeyframePose {
 
   /// What somebody else knows of the motion from the last frame to the coming one, such as the filter. Holds for that
   /// one, and is taken where the own velocity says little: the camera is lost, or few features fitted its last pose.
-  void expect_motion(const Pose& current_from_last) { told_ = current_from_last; }
+  void expect_motion(const Pose& current_from_last) { told_motion_.tell(current_from_last); }
 
   /// @param match  called as match(keyframe, current, camera_from_world, is_lost, found) and appends to `found`;
   ///               camera_from_world is the expected pose, which says nothing where the camera is lost
@@ -72,7 +73,7 @@ class KeyframePose {
   template <class Match>
   std::optional<Pose> track(const stillpoint::FrameView& frame, Features features, Match&& match) {
     Frame current = prepare(frame, std::move(features));
-    add_up_told_motion();
+    told_motion_.next_frame();
     if (keyframes_.empty()) return begin(std::move(current));
     Pose camera_from_world = stillpoint::orthonormalized(expected_motion() * camera_from_world_);
     if (!solve_near(current, match, camera_from_world) && !relocalize(current, match, camera_from_world)) {
@@ -113,22 +114,13 @@ class KeyframePose {
   void count_from_here(std::size_t fitted) {
     misses_ = 0;
     fitted_ = fitted;
-    told_since_pose_ = Pose::Identity();
-  }
-
-  /// Frame by frame since the last pose; nothing any more where one frame was told nothing.
-  void add_up_told_motion() {
-    if (!told_)
-      told_since_pose_.reset();
-    else if (told_since_pose_)
-      told_since_pose_ = stillpoint::orthonormalized(*told_ * *told_since_pose_);
-    told_.reset();
+    told_motion_.restart();
   }
 
   /// Since the last pose.
   const Pose& expected_motion() const {
     const bool has_velocity = misses_ == 0 && fitted_ >= options.fewest_for_velocity;
-    return told_since_pose_ && !has_velocity ? *told_since_pose_ : motion_;
+    return told_motion_.since_pose() && !has_velocity ? *told_motion_.since_pose() : motion_;
   }
 
   double depth_sigma(double depth_m) const { return options.depth_sigma_factor * depth_noise.sigma(depth_m); }
@@ -204,8 +196,7 @@ class KeyframePose {
   std::vector<std::uint8_t> inlier_;
   Pose camera_from_world_ = Pose::Identity();
   Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose
-  std::optional<Pose> told_;        ///< of the coming frame
-  std::optional<Pose> told_since_pose_;
+  ToldMotion told_motion_;
   std::size_t fitted_ = 0;  ///< features that fitted the last pose
   int misses_ = 0;          ///< frames in a row without a pose
 };

@@ -5,7 +5,6 @@
 // An RGB-D odometry on ORB: features spread over the image are matched by their descriptors with the points of the
 // nearest keyframes, near where the expected pose sees them; the pose is solved from the matches.
 
-#include <opencv2/core/hal/hal.hpp>
 #include <opencv2/core/mat.hpp>
 
 #include <cstddef>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "descriptor_match.hpp"
 #include "keyframe_pose.hpp"
 #include "orb_features.hpp"
 #include "spread_orb.hpp"
@@ -66,20 +66,14 @@ class OrbOdometry {
     std::vector<std::size_t> found(pixels.size(), keyframe.depth_m.size());
     for (std::size_t k = 0; k < keyframe.depth_m.size(); ++k) {
       if (!(keyframe.depth_m[k] > 0)) continue;
-      int best_bits = 256, second_bits = 256;
-      std::size_t best = 0;
+      DescriptorMatch most_alike;
       const auto compare = [&](std::size_t i, float) {
         const int octave = current.features.keypoints[i].octave;
         if (std::abs(octave - keyframe.features.keypoints[k].octave) > 1) return;
-        // Neighbouring octaves hold the same corner: only one of the best's own octave is a rival.
-        const int bits = distance_bits(keyframe.features, k, current.features, i);
-        if (bits < best_bits) {
-          second_bits = current.features.keypoints[best].octave == octave ? best_bits : 256;
-          best_bits = bits;
-          best = i;
-        } else if (bits < second_bits && current.features.keypoints[best].octave == octave) {
-          second_bits = bits;
-        }
+        const int feature = static_cast<int>(i);
+        most_alike.compare(feature, octave,
+                           distance_bits(keyframe.features.descriptors.ptr(static_cast<int>(k)),
+                                         current.features.descriptors.ptr(feature)));
       };
       if (is_lost) {
         for (std::size_t i = 0; i < pixels.size(); ++i) compare(i, 0.0f);
@@ -87,18 +81,15 @@ class OrbOdometry {
         const Vector3d p = camera_from_keyframe * camera.back_project(keyframe.pixel[k], keyframe.depth_m[k]);
         if (p.z() > 0.1) grid.within(camera.distort(camera.project(p)).cast<float>(), options.search_px, compare);
       }
-      if (best_bits == 256 || best_bits >= bits_of[best] || best_bits > options.second_best * second_bits) continue;
-      bits_of[best] = best_bits;
+      if (most_alike.feature < 0 || most_alike.bits > options.second_best * most_alike.second_bits) continue;
+      const auto best = static_cast<std::size_t>(most_alike.feature);
+      if (most_alike.bits >= bits_of[best]) continue;
+      bits_of[best] = most_alike.bits;
       found[best] = k;
     }
     for (std::size_t i = 0; i < found.size(); ++i)
       if (found[i] < keyframe.depth_m.size())
         again.push_back({i, keyframe.pixel[found[i]], keyframe.depth_m[found[i]]});
-  }
-
-  static int distance_bits(const OrbFeatures& a, std::size_t i, const OrbFeatures& b, std::size_t j) {
-    return cv::hal::normHamming(a.descriptors.ptr(static_cast<int>(i)), b.descriptors.ptr(static_cast<int>(j)),
-                                a.descriptors.cols);
   }
 
   SpreadOrb orb_;

@@ -23,6 +23,9 @@ namespace examples {
 /// Detects ORB corners and takes the best of each place.
 class SpreadOrb {
  public:
+  static constexpr double kScale = 1.2;  ///< of a level of the pyramid to the next
+  static constexpr int kLevels = 8;
+
   struct Options {
     int features = 1000;
     int candidates = 4;      ///< times as many corners are detected, of which the best of each place are taken
@@ -34,8 +37,8 @@ class SpreadOrb {
 
   explicit SpreadOrb(const Options& settings)
       : options(settings),
-        orb_(cv::ORB::create(settings.features * settings.candidates, 1.2f, 8, 31, 0, 2, cv::ORB::HARRIS_SCORE, 31,
-                             settings.fast_threshold)) {}
+        orb_(cv::ORB::create(settings.features * settings.candidates, static_cast<float>(kScale), kLevels, 31, 0, 2,
+                             cv::ORB::HARRIS_SCORE, 31, settings.fast_threshold)) {}
 
   OrbFeatures extract(const stillpoint::FrameView& frame) {
     const cv::Mat gray = stillpoint::as_mat(stillpoint::with_gray(frame, gray_).gray);

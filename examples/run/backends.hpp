@@ -162,9 +162,7 @@ class AnyTracker {
         MapFiles files{backend.map_ply(), backend.map_ply_before_loop(), {}, {}};  // behind them the map is at rest
         const auto& map = backend.keeper().map;
         for (const auto& [id, keyframe] : map.keyframes()) files.keyframes.push_back(keyframe.timestamp_s);
-        for (const auto& loop : backend.keeper().loops)
-          if (map.has(loop.keyframe) && map.has(loop.place))
-            files.loops.push_back({map.keyframe(loop.place).timestamp_s, map.keyframe(loop.keyframe).timestamp_s});
+        for (const auto& loop : backend.keeper().loops) files.loops.push_back({loop.place_s, loop.keyframe_s});
         return files;
       } else {
         return std::nullopt;

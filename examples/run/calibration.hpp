@@ -53,14 +53,14 @@ struct CalibrationRecord {
 namespace detail {
 
 /// Sets what the stages assume. The noise of pixels is measured in every frame, up to a limit: a camera that is noisier
-/// than those by which the limits were set gets higher ones, a better camera needs none.
+/// than those by which the limits were set gets higher ones than the defaults, a better camera needs none.
 template <class Policies>
 void take_over(const stillpoint::CalibratedNoise& noise, stillpoint::FrameFilter<Policies>& filter) {
   constexpr double kUsual_px = 0.41;  // kitchen_static's median (docs/tuning.md)
   const double noisier = std::max(noise.median_pixel_sigma / kUsual_px, 1.0);
   filter.depth_noise = noise.depth_noise;
-  filter.scorer.options.pixel_sigma *= noisier;
-  filter.ego_motion.constraints.pixel_sigma *= noisier;
+  filter.scorer.options.pixel_sigma = noisier * stillpoint::ReprojectionScore::Options{}.pixel_sigma;
+  filter.ego_motion.constraints.pixel_sigma = noisier * stillpoint::SupportConstraints{}.pixel_sigma;
 }
 
 }  // namespace detail

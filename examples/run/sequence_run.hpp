@@ -191,7 +191,12 @@ RunRecord run_frames(const Options& options, FrameSource& source, DetectionFeed&
     record.summary.extract_ms = filtered.backend.extract_ms;
     record.summary.track_ms = filtered.backend.track_ms;
     detail::append_pose(pose, frame.timestamp_s, run.filtered);
-    if (run.has_backend) detail::append_pose(unfiltered.track(view), frame.timestamp_s, run.unfiltered);
+    if (run.has_backend) {
+      const auto same_objects = [&](const auto&, const auto&) {
+        unfiltered.backend.expect_detections(detail::detections(record));
+      };
+      detail::append_pose(unfiltered.track(view, same_objects), frame.timestamp_s, run.unfiltered);
+    }
     if (run.has_labels) {
       detail::count_labels(frame, record, run.labels);
       if (run.has_stages) {

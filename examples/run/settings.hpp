@@ -30,10 +30,19 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
   const auto unless_by_file = [&options](const char* name, std::string value) {
     return options.stages.empty() || options.is_given(name) ? std::move(value) : std::string("by --options");
   };
+  const auto of_bag = [&options](const std::string& topic) {
+    return options.bag.empty() ? std::string("n/a") : topic.empty() ? std::string("the only one") : topic;
+  };
   const bool all_frames = options.frames == std::numeric_limits<int>::max();
   return {
       {"sequence", options.input_words()},
       {"--camera", options.camera.empty() ? "not given" : options.camera.string()},
+      {"--image-topic", of_bag(options.image_topic)},
+      {"--depth-topic", of_bag(options.depth_topic)},
+      {"--camera-info-topic", of_bag(options.camera_info_topic)},
+      {"--rectified", options.bag.empty() ? "n/a"
+                      : options.rectified ? "yes"
+                                          : "no"},
       {"--fps", options.frame_rate_hz > 0 ? shortest(options.frame_rate_hz) : "as the frames say"},
       {"--options", options.stages.empty() ? "defaults" : options.stages.string()},
       {"--depth-noise", unless_by_file("--depth-noise", options.depth_noise)},
@@ -62,7 +71,8 @@ inline std::vector<std::pair<std::string, std::string>> settings(const Options& 
       {"--start", std::to_string(options.start)},
       {"--frames", all_frames ? "all" : std::to_string(options.frames)},
       {"--seed", unless_by_file("--seed", std::to_string(options.seed))},
-      {"--threads", std::to_string(options.threads)}};
+      {"--threads", std::to_string(options.threads)},
+      {"--no-movers", options.no_movers ? "yes" : "no"}};
 }
 
 }  // namespace stillpoint_run

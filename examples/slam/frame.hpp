@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "../backends/orb_features.hpp"
+#include "../backends/spread_orb.hpp"
 #include "feature_grid.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
@@ -71,8 +72,8 @@ struct Keyframe : Frame {
 };
 
 /// Size of a pixel of a level of ORB's pyramid.
-inline double octave_scale(int octave) { return std::pow(1.2, octave); }
-inline double octave_at(double scale) { return std::log(scale) / std::log(1.2); }
+inline double octave_scale(int octave) { return std::pow(SpreadOrb::kScale, octave); }
+inline double octave_at(double scale) { return std::log(scale) / std::log(SpreadOrb::kScale); }
 
 /// How wrong a feature's pixel and depth are, one standard deviation.
 struct MeasurementNoise {

@@ -18,15 +18,6 @@ namespace {
 
 constexpr int kFewestShared = 15;  // points that make two keyframes covisible
 
-std::vector<KeyframeId> with_neighbours(KeyframeId id, std::size_t most, const Map& map) {
-  std::vector<KeyframeId> result = {id};
-  for (const auto& [other, shared] : map.covisible(id, kFewestShared)) {
-    if (result.size() > most) break;
-    result.push_back(other);
-  }
-  return result;
-}
-
 }  // namespace
 
 /// The most similar first.
@@ -80,27 +71,31 @@ std::optional<Recognised> LoopClosing::recognise(KeyframeId newest, const Map& m
   return best;
 }
 
-/// A keyframe by a place: the pose by descriptors alone, then by all points of the place; and the keyframe before it
-/// must agree, which nobody has compared with the place yet.
+/// A keyframe by a place: the pose by descriptors alone, then by all points of the place; and the keyframe
+/// that shares most points with it must agree, which nobody has compared with the place yet.
 std::optional<Recognised> LoopClosing::verify(const Keyframe& keyframe, KeyframeId place, const Map& map) {
   constexpr std::size_t kNeighbours = 6;
   const std::optional<Pose> by_appearance = place_pose(keyframe, place, map);
   if (!by_appearance) return std::nullopt;
-  const std::vector<PointId> points = map.points_of(with_neighbours(place, kNeighbours, map));
+  const std::vector<PointId> points = map.points_of(map.with_neighbours(place, kFewestShared, kNeighbours));
   Recognised result;
   if (!agrees(keyframe, *by_appearance, points, map, 1.0, result.matches, result.camera_from_world))
     return std::nullopt;
-  const auto before = map.covisible(keyframe.id, kFewestShared);
-  if (before.empty()) return std::nullopt;
-  const Keyframe& neighbour = map.keyframe(before.front().first);
+  const auto covisible = map.covisible(keyframe.id, kFewestShared);
+  if (covisible.empty()) return std::nullopt;
+  const Keyframe& neighbour = map.keyframe(covisible.front().first);
   const Pose neighbour_from_world =
       neighbour.camera_from_world * keyframe.camera_from_world.inverse() * result.camera_from_world;
   std::vector<PointMatch> ignored;
   Pose refined;
   if (!agrees(neighbour, neighbour_from_world, points, map, 0.5, ignored, refined)) return std::nullopt;
   const Vector3d was = keyframe.camera_from_world.inverse().translation();
-  result.loop = {keyframe.id, place, (result.camera_from_world.inverse().translation() - was).norm(),
-                 result.matches.size()};
+  result.loop = {keyframe.id,
+                 place,
+                 (result.camera_from_world.inverse().translation() - was).norm(),
+                 result.matches.size(),
+                 keyframe.timestamp_s,
+                 map.keyframe(place).timestamp_s};
   return result;
 }
 
@@ -162,8 +157,9 @@ void LoopClosing::close(const Recognised& recognised, Map& map) const {
       if (other < id) add_edge(id, other, pose_of(id) * pose_of(other).inverse(), shared);
     before = id;
   }
-  const auto [newest, place, drift_m, points] = recognised.loop;
-  add_edge(newest, place, recognised.camera_from_world * pose_of(place).inverse(), static_cast<double>(points));
+  const KeyframeId newest = recognised.loop.keyframe, place = recognised.loop.place;
+  add_edge(newest, place, recognised.camera_from_world * pose_of(place).inverse(),
+           static_cast<double>(recognised.loop.points));
   relax(graph);
 
   // A point goes where the first keyframe that sees it goes.
@@ -176,6 +172,7 @@ void LoopClosing::close(const Recognised& recognised, Map& map) const {
       const Pose& moved = new_world_from_old.at(point.observations.front().keyframe);
       point.p_world = moved * point.p_world;
       point.ray_sigma_m = moved.linear() * point.ray_sigma_m;
+      point.normal = moved.linear() * point.normal;
     }
   for (const PoseGraph::Node& node : graph.nodes)
     map.keyframe(node.keyframe).camera_from_world = node.camera_from_world;

@@ -20,8 +20,9 @@ namespace examples::slam {
 /// A loop that was closed.
 struct Loop {
   KeyframeId keyframe = kNone, place = kNone;
-  double drift_m = 0.0;    ///< by which the keyframe was off
-  std::size_t points = 0;  ///< of the place that the keyframe shows
+  double drift_m = 0.0;                    ///< by which the keyframe was off
+  std::size_t points = 0;                  ///< of the place that the keyframe shows
+  double keyframe_s = 0.0, place_s = 0.0;  ///< their times: keyframes may be gone from the map later
 };
 
 /// A keyframe that was recognised, and where it is by what it shows.

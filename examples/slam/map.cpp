@@ -113,6 +113,15 @@ std::vector<std::pair<KeyframeId, int>> Map::that_see(stillpoint::span<const Poi
   return result;
 }
 
+std::vector<KeyframeId> Map::with_neighbours(KeyframeId id, int fewest, std::size_t most) const {
+  std::vector<KeyframeId> result = {id};
+  for (const auto& [other, shared] : covisible(id, fewest)) {
+    if (result.size() > most) break;
+    result.push_back(other);
+  }
+  return result;
+}
+
 std::vector<std::pair<KeyframeId, int>> Map::covisible(KeyframeId id, int fewest) const {
   std::vector<std::pair<KeyframeId, int>> result = that_see(keyframe(id).point, fewest);
   result.erase(std::remove_if(result.begin(), result.end(), [id](const auto& a) { return a.first == id; }),

@@ -85,7 +85,9 @@ class Map {
 
   /// Keyframes that see at least `fewest` points of this one, the most first, and how many.
   std::vector<std::pair<KeyframeId, int>> covisible(KeyframeId id, int fewest) const;
-  /// The same for the points of any frame.
+  /// This keyframe, and behind it those that see at least `fewest` points of it: `most` of them, the most points first.
+  std::vector<KeyframeId> with_neighbours(KeyframeId id, int fewest, std::size_t most) const;
+  /// As `covisible`, for the points of any frame.
   std::vector<std::pair<KeyframeId, int>> that_see(stillpoint::span<const PointId> points, int fewest) const;
   /// All points of some keyframes, by rising id.
   std::vector<PointId> points_of(stillpoint::span<const KeyframeId> ids) const;

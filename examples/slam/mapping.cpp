@@ -25,11 +25,8 @@ void Mapping::connect(KeyframeId id, Map& map) const {
 }
 
 std::vector<KeyframeId> Mapping::neighbours(KeyframeId id, const Map& map) const {
-  std::vector<KeyframeId> result;
-  for (const auto& [other, shared] : map.covisible(id, options.fewest_shared)) {
-    if (result.size() == options.neighbours) break;
-    result.push_back(other);
-  }
+  std::vector<KeyframeId> result = map.with_neighbours(id, options.fewest_shared, options.neighbours);
+  result.erase(result.begin());
   return result;
 }
 

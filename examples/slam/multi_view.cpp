@@ -8,11 +8,8 @@
 namespace examples::slam {
 
 BundleProblem MultiView::gather(KeyframeId newest, const Map& map) const {
-  std::vector<KeyframeId> window = {newest};
-  for (const auto& [other, shared] : map.covisible(newest, options.fewest_shared)) {
-    if (window.size() == options.window_keyframes) break;
-    window.push_back(other);
-  }
+  const std::vector<KeyframeId> window =
+      map.with_neighbours(newest, options.fewest_shared, options.window_keyframes - 1);
   BundleProblem problem;
   for (const KeyframeId id : window) problem.views.push_back({id, map.keyframe(id).camera_from_world, id == 0});
   add_measurements(problem, map, map.points_of(window));

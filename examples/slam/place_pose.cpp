@@ -16,15 +16,10 @@ namespace examples::slam {
 std::optional<Pose> PlacePose::operator()(const Frame& frame, KeyframeId place, const Map& map) {
   constexpr std::size_t kNeighbours = 4;
   constexpr int kFewestShared = 15;
-  std::vector<KeyframeId> around = {place};
-  for (const auto& [id, shared] : map.covisible(place, kFewestShared)) {
-    if (around.size() > kNeighbours) break;
-    around.push_back(id);
-  }
   // From the place's camera, so that noise lies along its rays; equal up to there for all pairs.
   const Pose place_from_world = map.keyframe(place).camera_from_world;
   std::vector<stillpoint::WhitenedPair> pairs;
-  for (const PointId id : map.points_of(around)) {
+  for (const PointId id : map.points_of(map.with_neighbours(place, kFewestShared, kNeighbours))) {
     const MapPoint& point = map.point(id);
     int best = kNone, bits = kDescriptorBits, second_bits = kDescriptorBits;
     for (std::size_t i = 0; i < frame.size(); ++i) {

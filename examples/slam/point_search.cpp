@@ -11,7 +11,7 @@ namespace examples::slam {
 
 Projection project(const MapPoint& point, const Camera& camera, const Pose& camera_from_world, double oblique_cosine) {
   constexpr double kNearest_m = 0.1;
-  constexpr int kOctaves = 8;
+  constexpr int kOctaves = SpreadOrb::kLevels;
   Projection result;
   const Vector3d p_camera = camera_from_world * point.p_world;
   if (!(p_camera.z() > kNearest_m)) return result;
@@ -29,29 +29,6 @@ Projection project(const MapPoint& point, const Camera& camera, const Pose& came
   return result;
 }
 
-namespace {
-
-/// The best and the second best of those that were compared.
-struct Ranking {
-  int feature = kNone;
-  int bits = kDescriptorBits, second_bits = kDescriptorBits;
-  int octave = kNone;
-
-  void compare(int other, int other_octave, int other_bits) {
-    if (other_bits < bits) {
-      // Neighbouring octaves hold the same corner: only one of the best's own octave is a rival.
-      second_bits = octave == other_octave ? bits : kDescriptorBits;
-      feature = other;
-      bits = other_bits;
-      octave = other_octave;
-    } else if (other_bits < second_bits && other_octave == octave) {
-      second_bits = other_bits;
-    }
-  }
-};
-
-}  // namespace
-
 void PointSearch::operator()(const Map& map, span<const PointId> points, const Camera& camera,
                              const Pose& camera_from_world, const Frame& frame, std::vector<PointMatch>& matches,
                              std::vector<PointId>* expected) const {
@@ -62,17 +39,17 @@ void PointSearch::operator()(const Map& map, span<const PointId> points, const C
     if (!place.is_visible) continue;
     if (expected != nullptr) expected->push_back(id);
     const double reach_px = window_px * octave_scale(place.octave);
-    Ranking ranking;
+    DescriptorMatch most_alike;
     frame.grid.near(place.pixel, reach_px, [&](int i) {
       const Vector2d offset = frame.pixel[static_cast<std::size_t>(i)] - place.pixel;
       if (std::abs(offset.x()) > reach_px || std::abs(offset.y()) > reach_px) return;
       const int octave = frame.octave(i);
       if (std::abs(octave - place.octave) > 1) return;
-      ranking.compare(i, octave, distance_bits(point.descriptor.data(), frame.descriptor(i)));
+      most_alike.compare(i, octave, distance_bits(point.descriptor.data(), frame.descriptor(i)));
     });
-    if (ranking.bits > farthest_bits || ranking.bits > second_best * ranking.second_bits) continue;
-    PointMatch& match = of_feature[static_cast<std::size_t>(ranking.feature)];
-    if (match.point == kNone || ranking.bits < match.bits) match = {id, ranking.feature, ranking.bits};
+    if (most_alike.bits > farthest_bits || most_alike.bits > second_best * most_alike.second_bits) continue;
+    PointMatch& match = of_feature[static_cast<std::size_t>(most_alike.feature)];
+    if (match.point == kNone || most_alike.bits < match.bits) match = {id, most_alike.feature, most_alike.bits};
   }
   for (const PointMatch& match : of_feature)
     if (match.point != kNone) matches.push_back(match);

@@ -44,7 +44,7 @@ struct SlamOptions {
   DepthLimits depth_limits;
   double keyframe_share = 0.4;        ///< a new keyframe where the map explains less: `explained_share`
   double keyframe_motion = 0.2;       ///< or the camera has moved this far from the last: metres plus radians
-  std::size_t most_waiting = 2;       ///< keyframes that mapping has not come to: then there is no new one
+  std::size_t most_waiting = 2;       ///< keyframes that mapping has not come to; with more there is no new one
   std::size_t fewest_to_begin = 100;  ///< features with depth: fewer make no first keyframe
   int patience = 15;                  ///< frames without a pose; then the map goes on where the camera is expected
   bool maps_in_step = false;          ///< mapping is waited for: the same bytes each time

@@ -11,10 +11,10 @@
 namespace examples::slam {
 
 bool Tracking::locate(Frame& frame, Map& map, const MeasurementNoise& noise) {
-  add_up_told_motion();
-  const bool has_last = !last_points_.empty() || !map.has(reference_);
-  return locate_from(expected_camera_from_world(map), has_last ? last_points_ : map.keyframe(reference_).point, frame,
-                     map, noise);
+  told_motion_.next_frame();
+  const bool is_by_reference = last_points_.empty() && map.has(reference_);
+  return locate_from(expected_camera_from_world(map), is_by_reference ? map.keyframe(reference_).point : last_points_,
+                     frame, map, noise);
 }
 
 bool Tracking::locate_by(KeyframeId place, const Pose& camera_from_world, Frame& frame, Map& map,
@@ -46,8 +46,7 @@ bool Tracking::refine(Frame& frame, Map& map, span<const PointId> local, const M
   options.refined_search(map, local, camera_, frame.camera_from_world, frame, matches_, &expected);
   see(frame, map, matches_, noise);
   Pose pose = frame.camera_from_world;
-  fitting_ = solve.refine(observations_, camera_, pose, inlier_);
-  if (fitting_ < options.fewest) return false;
+  if (solve.refine(observations_, camera_, pose, inlier_) < options.fewest) return false;
   frame.camera_from_world = pose;
   for (const PointId id : expected) ++map.point(id).visible;
   std::fill(frame.point.begin(), frame.point.end(), kNone);
@@ -82,7 +81,7 @@ void Tracking::go_on_from(const Frame& frame, const Map& map, KeyframeId keyfram
   }
   camera_from_reference_ = frame.camera_from_world * map.keyframe(reference_).camera_from_world.inverse();
   last_points_ = keyframe != kNone ? map.keyframe(keyframe).point : frame.point;
-  told_since_pose_ = Pose::Identity();
+  told_motion_.restart();
   misses_ = 0;
 }
 
@@ -96,17 +95,8 @@ Pose Tracking::last_camera_from_world(const Map& map) const {
   return stillpoint::orthonormalized(camera_from_reference_ * map.keyframe(reference_).camera_from_world);
 }
 
-/// Frame by frame since the last pose; nothing any more where one frame was told nothing.
-void Tracking::add_up_told_motion() {
-  if (!told_)
-    told_since_pose_.reset();
-  else if (told_since_pose_)
-    told_since_pose_ = stillpoint::orthonormalized(*told_ * *told_since_pose_);
-  told_.reset();
-}
-
 /// As the filter says, or as it went on last. A velocity from few points is soon a mover's.
-Pose Tracking::expected_motion() const { return told_since_pose_ ? *told_since_pose_ : motion_; }
+Pose Tracking::expected_motion() const { return told_motion_.since_pose().value_or(motion_); }
 
 std::vector<PointId> Tracking::points_around(const Map& map, span<const PointId> seen) const {
   std::vector<KeyframeId> keyframes;

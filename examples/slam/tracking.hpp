@@ -6,10 +6,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "../backends/robust_pose.hpp"
+#include "../backends/told_motion.hpp"
 #include "frame.hpp"
 #include "map.hpp"
 #include "point_search.hpp"
@@ -35,7 +35,7 @@ class Tracking {
   explicit Tracking(Camera camera) : camera_(std::move(camera)) {}
 
   /// What the filter says of the motion from the last frame to the coming one.
-  void expect_motion(const Pose& current_from_last) { told_ = current_from_last; }
+  void expect_motion(const Pose& current_from_last) { told_motion_.tell(current_from_last); }
 
   /// The pose of the frame and the points that it shows, from where the camera is expected.
   /// @param frame  gets `camera_from_world`, `point` and `deviates`
@@ -57,14 +57,12 @@ class Tracking {
   KeyframeId reference() const { return reference_; }
   /// Points of the map around where the last frame with a pose was looked for.
   span<const PointId> local_points() const { return local_; }
-  std::size_t fitting() const { return fitting_; }
   int misses() const { return misses_; }
 
  private:
   bool locate_from(const Pose& camera_from_world, span<const PointId> seen, Frame& frame, Map& map,
                    const MeasurementNoise& noise);
   Pose expected_motion() const;
-  void add_up_told_motion();
   std::vector<PointId> points_around(const Map& map, span<const PointId> seen) const;
   void see(const Frame& frame, const Map& map, span<const PointMatch> matches, const MeasurementNoise& noise);
   bool refine(Frame& frame, Map& map, span<const PointId> local, const MeasurementNoise& noise);
@@ -79,10 +77,8 @@ class Tracking {
   KeyframeId reference_ = kNone;  ///< the keyframe that shares most with the last frame
   Pose camera_from_reference_ = Pose::Identity();
   Pose motion_ = Pose::Identity();  ///< current_from_last, of the last two frames with a pose
-  std::optional<Pose> told_;
-  std::optional<Pose> told_since_pose_ = Pose::Identity();
+  ToldMotion told_motion_;
   std::vector<PointId> last_points_;
-  std::size_t fitting_ = 0;
   int misses_ = 0;
 };
 

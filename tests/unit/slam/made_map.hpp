@@ -43,7 +43,7 @@ inline slam::Frame made_frame(const std::vector<Vector3d>& points, const Pose& c
   stillpoint::Random random(descriptor_seed);
   slam::Frame frame;
   frame.camera_from_world = camera_from_world;
-  frame.features.descriptors.create(static_cast<int>(points.size()), slam::kDescriptorBytes, CV_8U);
+  frame.features.descriptors.create(static_cast<int>(points.size()), examples::kDescriptorBytes, CV_8U);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d p = camera_from_world * points[i];
     const Vector2d pixel = camera().project(p);
@@ -53,7 +53,7 @@ inline slam::Frame made_frame(const std::vector<Vector3d>& points, const Pose& c
     frame.depth_m.push_back(p.z());
     frame.point.push_back(slam::kNone);
     frame.colour.emplace_back(1, 2, 3);
-    for (int byte = 0; byte < slam::kDescriptorBytes; ++byte)
+    for (int byte = 0; byte < examples::kDescriptorBytes; ++byte)
       frame.features.descriptors.at<std::uint8_t>(static_cast<int>(i), byte) =
           static_cast<std::uint8_t>(random.index(256));
   }
