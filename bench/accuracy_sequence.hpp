@@ -6,7 +6,6 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/features2d.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -18,7 +17,6 @@
 #include <vector>
 
 #include "clip.hpp"
-#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/evaluation/trajectory.hpp"
 
 namespace stillpoint::bench {
@@ -77,20 +75,13 @@ inline LabelledSequence recorded_sequence(const std::filesystem::path& folder, s
   const TumSequence source(folder);
   const std::vector<FrameBoxes> boxes = read_boxes(folder / "boxes.txt");
   const cv::Ptr<cv::ORB> orb = cv::ORB::create(kFeatures);
-  const MobilityTable mobility;
   LabelledSequence sequence{source.camera(), {}};
   for (std::size_t i = 0; i < std::min(source.frames().size(), most_frames); ++i) {
-    const RgbdImages images = source.load(i);
     LabelledFrame frame;
-    cv::cvtColor(images.colour, frame.gray, cv::COLOR_BGR2GRAY);
-    frame.depth = images.depth;
-    frame.depth_factor = source.depth_factor();
-    frame.timestamp_s = source.frames()[i].timestamp_s;
+    static_cast<ClipFrame&>(frame) = recorded_frame(source, i);
     if (source.has_labels()) frame.labels = source.load_labels(i);
     frame.world_from_camera = reference_pose(source, frame.timestamp_s);
-    if (const FrameBoxes* const found = boxes_at(boxes, frame.timestamp_s))
-      for (const DetectedBox& box : found->boxes)
-        frame.detections.push_back({box.box, mobility[box.class_name], box.confidence});
+    frame.detections = detections_at(boxes, frame.timestamp_s);
     orb->detect(frame.gray, frame.keypoints);
     sequence.frames.push_back(std::move(frame));
   }

@@ -93,24 +93,42 @@ inline bool is_recorded_clip(const std::filesystem::path& folder) {
          std::filesystem::exists(folder / "boxes.txt", ignored);
 }
 
+/// What a detector would say of the frame at that time, in images of the recording's size or `scale` times it.
+inline std::vector<Detection> detections_at(const std::vector<FrameBoxes>& boxes, double timestamp_s,
+                                            float scale = 1.0f) {
+  const MobilityTable mobility;
+  std::vector<Detection> detections;
+  if (const FrameBoxes* const found = boxes_at(boxes, timestamp_s))
+    for (const DetectedBox& seen : found->boxes) {
+      const Box& box = seen.box;
+      detections.push_back({{scale * box.x, scale * box.y, scale * box.width, scale * box.height},
+                            mobility[seen.class_name],
+                            seen.confidence});
+    }
+  return detections;
+}
+
+/// A recorded frame, without keypoints and detections.
+/// @throws Error where a file can't be read
+inline ClipFrame recorded_frame(const TumSequence& sequence, std::size_t index) {
+  const RgbdImages images = sequence.load(index);
+  ClipFrame frame;
+  cv::cvtColor(images.colour, frame.gray, cv::COLOR_BGR2GRAY);
+  frame.depth = images.depth;
+  frame.depth_factor = sequence.depth_factor();
+  frame.timestamp_s = sequence.frames()[index].timestamp_s;
+  return frame;
+}
+
 /// The first frames of such a folder.
 /// @throws Error where a file can't be read
 inline Clip recorded_clip(const std::filesystem::path& folder, std::size_t frames) {
   const TumSequence sequence(folder);
   const std::vector<FrameBoxes> boxes = read_boxes(folder / "boxes.txt");
-  const MobilityTable mobility;
   Clip clip{folder.filename().string(), sequence.camera(), {}};
   for (std::size_t i = 0; i < std::min(frames, sequence.frames().size()); ++i) {
-    const RgbdImages images = sequence.load(i);
-    ClipFrame frame;
-    cv::cvtColor(images.colour, frame.gray, cv::COLOR_BGR2GRAY);
-    frame.depth = images.depth;
-    frame.depth_factor = sequence.depth_factor();
-    frame.timestamp_s = sequence.frames()[i].timestamp_s;
-    if (const FrameBoxes* const found = boxes_at(boxes, frame.timestamp_s))
-      for (const DetectedBox& box : found->boxes)
-        frame.detections.push_back({box.box, mobility[box.class_name], box.confidence});
-    clip.frames.push_back(std::move(frame));
+    clip.frames.push_back(recorded_frame(sequence, i));
+    clip.frames.back().detections = detections_at(boxes, clip.frames.back().timestamp_s);
   }
   detail::detect_keypoints(clip);
   return clip;

@@ -5,6 +5,7 @@
 // The conditions that the filter must hold under, and one run of the filter and of a tracker under one of them.
 
 #include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,6 @@
 #include "backends/oracle_filter.hpp"
 #include "degradations.hpp"
 #include "depth_degradations.hpp"
-#include "stillpoint/detectors/mobility_table.hpp"
 #include "stillpoint/evaluation/trajectory_error.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/filtered_tracker.hpp"
@@ -113,17 +113,8 @@ inline LabelledSequence degraded_sequence(const std::filesystem::path& folder, c
 /// Boxes of the folder's boxes.txt, as a perfect detector's, for images of the recording's size or `scale` times it.
 inline void add_boxes(const std::filesystem::path& folder, double scale, LabelledSequence& sequence) {
   const std::vector<FrameBoxes> boxes = read_boxes(folder / "boxes.txt");
-  const MobilityTable mobility;
-  const auto scaled = static_cast<float>(scale);
-  for (LabelledFrame& frame : sequence.frames) {
-    const FrameBoxes* const found = boxes_at(boxes, frame.timestamp_s);
-    if (found == nullptr) continue;
-    for (const DetectedBox& box : found->boxes)
-      frame.detections.push_back(
-          {{scaled * box.box.x, scaled * box.box.y, scaled * box.box.width, scaled * box.box.height},
-           mobility[box.class_name],
-           box.confidence});
-  }
+  for (LabelledFrame& frame : sequence.frames)
+    frame.detections = detections_at(boxes, frame.timestamp_s, static_cast<float>(scale));
 }
 
 /// Root mean square of the absolute trajectory error against the sequence's own reference, metres.
