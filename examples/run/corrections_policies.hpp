@@ -67,7 +67,8 @@ void each_option(SwitchedMotion& motion, Visit& visit) {
   each_option(motion.support, visit);
 }
 
-/// Eq. 9 of each older frame in which a feature was found, the mean of the two greatest, in place of likelihoods.
+/// Eq. 9 of each older frame in which a feature was found, the mean of the two greatest (half of it where there is
+/// one), in place of likelihoods.
 struct SwitchedScore : stillpoint::ReprojectionScore {
   bool is_whitened = true;
   stillpoint::OffsetScore offset;
