@@ -9,8 +9,8 @@
 #include <exception>
 #include <new>
 #include <optional>
+#include <stillpoint/core/plausible_motion.hpp>
 #include <stillpoint/detectors/mobility_table.hpp>
-#include <stillpoint/pipeline/motion_expectation.hpp>
 #include <stillpoint/prior/propagated_prior.hpp>
 #include <stillpoint/stillpoint.hpp>
 #include <stillpoint_shim/types.hpp>

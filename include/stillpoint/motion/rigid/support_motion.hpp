@@ -16,6 +16,7 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/observations.hpp"
 #include "stillpoint/core/options.hpp"
+#include "stillpoint/core/plausible_motion.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/core/small_linear_algebra.hpp"
@@ -83,11 +84,13 @@ class SupportMotion {
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
     const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
     if (!(explained > kLeastSupport) || motion.status == Status::no_depth) return motion;
+    const Pose current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
+    if (!is_plausible_motion(current_from_reference)) return motion;  // what is kilometres away fits any
     motion.status = Status::ok;
     motion.doubtful = motion.depth_noise >= kMostDepthNoise && explained < kSureSupport;
     if (selection.is_inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
-    set_pose(orthonormalized(inverted(chosen.reference_from_current)), chosen.information, prior, motion);
+    set_pose(current_from_reference, chosen.information, prior, motion);
     return motion;
   }
 
@@ -112,8 +115,9 @@ class SupportMotion {
     weighted.support = problem.support(weighted.reference_from_current);
     const Hypothesis chosen = with_all_points(weighted, kNearCutoffs, problem);
     const Pose step = composed(inverted(chosen.reference_from_current), frames[0].reference_from_current);
-    const Pose estimated = motion.current_from_reference;
-    set_pose(orthonormalized(composed(step, estimated)), chosen.information, prior, motion);
+    const Pose estimated = motion.current_from_reference, refined = orthonormalized(composed(step, estimated));
+    if (!is_plausible_motion(refined)) return;
+    set_pose(refined, chosen.information, prior, motion);
     const Pose back = composed(estimated, inverted(motion.current_from_reference));  // old current camera from the new
     for (OlderFrame& frame : frames)
       frame.reference_from_current = orthonormalized(composed(frame.reference_from_current, back));
@@ -138,7 +142,6 @@ class SupportMotion {
   static constexpr std::array<double, 2> kNearCutoffs{4.0, 3.0};
 
   using Hypothesis = MotionHypothesis;
-
   /// The hypothesis that wins.
   struct Selection {
     Hypothesis hypothesis;
