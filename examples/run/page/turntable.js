@@ -8,7 +8,7 @@ const turntable = byId("turntable");
 function makeTurntable(canvas) {
   const points = Object.values(run.paths).flat().filter((point) => point);
   // Not Math.min(...all): a call takes some 120 000 arguments, half an hour of poses has more.
-  const extreme = (choose, axis) => points.reduce((best, point) => choose(best, point[axis]), points[0][axis]);
+  const extreme = (choose, axis) => points.reduce((best, point) => choose(best, point[axis]), choose());
   const low = [0, 1, 2].map((axis) => extreme(Math.min, axis)), high = [0, 1, 2].map((axis) => extreme(Math.max, axis));
   const centre = low.map((value, axis) => (value + high[axis]) / 2);
   const size = Math.max(Math.hypot(...low.map((value, axis) => high[axis] - value)), 0.1);

@@ -33,6 +33,15 @@ class VideoFileTest : public testing::Test {
     }
   }
 
+  void expect_written_through_link_to(const std::filesystem::path& named) const {
+    std::filesystem::create_symlink(named, file);
+    VideoFile video(file);
+    write(video, 2);
+    video.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(file));
+    EXPECT_EQ(count_frames(named), 2u);
+  }
+
   stillpoint::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "video.avi";
 };
@@ -101,24 +110,10 @@ TEST_F(VideoFileTest, APartialFileOfSomebodyElseStays) {
 }
 
 TEST_F(VideoFileTest, OfALinkTheFileThatItNamesIsWritten) {
-  const std::filesystem::path named = folder.write("named", "old");
-  std::filesystem::create_symlink(named, file);
-  VideoFile video(file);
-  write(video, 2);
-  video.commit();
-  EXPECT_TRUE(std::filesystem::is_symlink(file));
-  EXPECT_EQ(count_frames(named), 2u);
+  expect_written_through_link_to(folder.write("named", "old"));
 }
 
-TEST_F(VideoFileTest, OfALinkTheFileThatIsMissingIsMade) {
-  const std::filesystem::path named = folder.path() / "named";
-  std::filesystem::create_symlink(named, file);
-  VideoFile video(file);
-  write(video, 2);
-  video.commit();
-  EXPECT_TRUE(std::filesystem::is_symlink(file));
-  EXPECT_EQ(count_frames(named), 2u);
-}
+TEST_F(VideoFileTest, OfALinkTheFileThatIsMissingIsMade) { expect_written_through_link_to(folder.path() / "named"); }
 
 }  // namespace
 }  // namespace stillpoint_run::video_file_test
