@@ -120,6 +120,12 @@ void print(const std::vector<Row>& rows) {
   }
 }
 
+/// Ends the line of progress before what follows it, an error's message, too.
+struct ProgressLine {
+  ProgressLine() noexcept {}
+  ~ProgressLine() { std::fputc('\n', stderr); }
+};
+
 void measure(const Arguments& arguments) {
   std::vector<Row> rows;
   for (const std::filesystem::path& folder : arguments.folders)
@@ -137,11 +143,13 @@ void measure(const Arguments& arguments) {
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t run = 0; run < rows[r].outcomes.size(); ++run) jobs.emplace_back(r, run);
   std::atomic<std::size_t> done{0};
-  for_each_in_parallel(jobs.size(), arguments.threads, [&](std::size_t j) {
-    run_once(rows[jobs[j].first], jobs[j].second, arguments);
-    std::fprintf(stderr, "\r%zu of %zu runs", ++done, jobs.size());
-  });
-  std::fprintf(stderr, "\n");
+  {
+    const ProgressLine line;
+    for_each_in_parallel(jobs.size(), arguments.threads, [&](std::size_t j) {
+      run_once(rows[jobs[j].first], jobs[j].second, arguments);
+      std::fprintf(stderr, "\r%zu of %zu runs", ++done, jobs.size());
+    });
+  }
   print(rows);
 }
 

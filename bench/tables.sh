@@ -5,18 +5,15 @@
 # bench/tables.sh FOLDER...: the paper's tables 1 to 4. Each FOLDER is a sequence of the TUM or Bonn benchmark as it is
 # unpacked (rgbd_dataset_freiburg3_walking_xyz, rgbd_bonn_crowd), or of the same layout; each is run with the filter and
 # without it in front of the SLAM of examples/slam. Prints Markdown; tables.csv in the working folder has all figures.
-# STILLPOINT_BUILD: a build folder that is configured already, in place of build/tables.
 # STILLPOINT_RUN_ARGUMENTS: more for stillpoint_run, such as '--prior MODEL --detect-every 10 --sync'.
 set -euo pipefail
 here=$PWD
 project=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 (($# > 0)) || { echo 'usage: bench/tables.sh FOLDER...' >&2; exit 2; }
 
-build=${STILLPOINT_BUILD:-$project/build/tables}
-if [[ -z ${STILLPOINT_BUILD:-} ]]; then
-  cmake -S "$project" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF > /dev/null
-fi
-cmake --build "$build" --target stillpoint_run stillpoint_tables >&2
+bash "$project/tests/install_packages.sh" libceres-dev < /dev/null >&2
+bash "$project/bench/build.sh" stillpoint_run stillpoint_tables
+build=$project/build/ratios
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -13,9 +13,7 @@ cd "$root"
 trackers=("$@")
 ((${#trackers[@]} > 0)) || trackers=(odometry klt orb)
 
-cmake -S . -B build/trackers -G Ninja -DCMAKE_BUILD_TYPE=Release -DSTILLPOINT_BUILD_TESTS=OFF \
-  -DSTILLPOINT_BUILD_BENCHMARKS=OFF > /dev/null
-cmake --build build/trackers --target stillpoint_run >&2
+bash bench/build.sh stillpoint_run
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -24,7 +22,7 @@ trap 'rm -rf "$work"' EXIT
 ate() {
   local start
   for start in 0 1 2 3 4; do
-    build/trackers/examples/stillpoint_run --tum "$data/$2" --prior "$3" --backend "$1" --start "$start" \
+    build/ratios/examples/stillpoint_run --tum "$data/$2" --prior "$3" --backend "$1" --start "$start" \
       --out "$work/out" --quiet > /dev/null
     awk -F '[:,]' '/"ate_rmse_m"/ { filtered = $2 } /"ate_rmse_unfiltered_m"/ { unfiltered = $2 }
       function metres(ate) { return ate ~ /[0-9]/ ? ate + 0 : "inf" }

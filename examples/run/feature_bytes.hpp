@@ -31,7 +31,7 @@ inline std::uint16_t rounded_i16(double value) {
 
 /// 12 bytes a feature, little-endian:
 ///   u16 x, u16 y    1/8 px
-///   u8  verdict (bits 0-1), kept (bit 2), mobility of the prior (bits 3-4)
+///   u8  verdict (bits 0-1), kept (bit 2)
 ///   u8  reason; the one behind the last is the oracle's "label"
 ///   i16 score       1/100; -32768: not scored
 ///   i8  offset x, i8 offset y   half pixels; both -128: not known
@@ -52,8 +52,7 @@ inline std::vector<std::uint8_t> feature_bytes(const FrameRecord& record,
     const FeatureRow& row = record.rows[i];
     put_u16(detail::rounded_u16(kStepsPerPixel * static_cast<double>(row.pixel.x())));
     put_u16(detail::rounded_u16(kStepsPerPixel * static_cast<double>(row.pixel.y())));
-    put_u8(static_cast<unsigned>(row.label.verdict) | (row.label.keep ? 4u : 0u) |
-           static_cast<unsigned>(row.prior) << 3);
+    put_u8(static_cast<unsigned>(row.label.verdict) | (row.label.keep ? 4u : 0u));
     const bool is_enumerated = std::strcmp(row.reason, to_string(row.label.reason)) == 0;
     put_u8(is_enumerated ? static_cast<unsigned>(row.label.reason) : static_cast<unsigned>(stillpoint::kReasonCount));
     put_u16(std::isfinite(row.score) ? detail::rounded_i16(kStepsPerScore * static_cast<double>(row.score)) : kNoScore);

@@ -64,7 +64,7 @@ inline Plot map_plot(const DrawnPaths& drawn, std::array<int, 2> axes) {
   }
   add_map(true);  // short, and on the trajectories
   const bool has_estimate = plot.lines.size() > (has_reference ? 1u : 0u);
-  plot.description = !has_estimate ? "The camera's path by the reference; no tracker ran."
+  plot.description = !has_estimate ? "The camera's path by the reference; there is none of a tracker."
                      : has_reference
                          ? "The camera's path with and without the filter from the same start, aligned to the "
                            "reference as the better one is."

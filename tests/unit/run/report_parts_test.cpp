@@ -98,7 +98,7 @@ TEST(FeatureBytes, AreAsThePageReadsThem) {
   row.label.reason = stillpoint::Reason::inconsistent;
   record.rows = {row};
   const auto bytes = feature_bytes(record, {{-3.0f, 1.5f}});
-  const std::vector<std::uint8_t> expected = {804 & 255, 804 >> 8, 162, 0, 1 | 3 << 3, 5, 106, 255, 256 - 6, 3, 234, 0};
+  const std::vector<std::uint8_t> expected = {804 & 255, 804 >> 8, 162, 0, 1, 5, 106, 255, 256 - 6, 3, 234, 0};
   EXPECT_EQ(bytes, expected);
   record.rows[0].reason = "label";
   record.rows[0].score = std::nanf("");
