@@ -142,7 +142,7 @@ class KeyframePose {
     }
   }
 
-  void forget_past_observations() {
+  void forget_observations() {
     observations_.clear();
     source_.clear();
   }
@@ -155,7 +155,7 @@ class KeyframePose {
     for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe)
       nearest.emplace_back(distance(world_from_camera, keyframe->world_from_camera), &*keyframe);
     std::stable_sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    forget_past_observations();
+    forget_observations();
     for (std::size_t i = 0; i < std::min(nearest.size(), options.matched_keyframes); ++i)
       see(current, *nearest[i].second, match, camera_from_world, false);
     return solve(observations_, camera_, camera_from_world, inlier_);
@@ -165,7 +165,7 @@ class KeyframePose {
   template <class Match>
   bool relocalize(const Frame& current, const Match& match, Pose& camera_from_world) {
     for (auto keyframe = keyframes_.rbegin(); keyframe != keyframes_.rend(); ++keyframe) {
-      forget_past_observations();
+      forget_observations();
       see(current, *keyframe, match, camera_from_world, true);
       Pose candidate = camera_from_world;
       if (!solve(observations_, camera_, candidate, inlier_) || !solve_near(current, match, candidate)) continue;

@@ -106,18 +106,18 @@ bool LoopClosing::agrees(const Keyframe& keyframe, const Pose& camera_from_world
   matches.clear();
   std::vector<PointId> expected;
   options.search(map, points, camera_, camera_from_world, keyframe, matches, &expected);
-  std::vector<PointObservation> past_observations;
+  std::vector<PointObservation> observations;
   for (const PointMatch& match : matches) {
     const auto i = static_cast<std::size_t>(match.feature);
     const MapPoint& point = map.point(match.point);
-    past_observations.push_back({point.p_world, keyframe.pixel[i], noise_.pixel(keyframe.octave(match.feature)),
-                                 keyframe.depth_m[i], noise_.depth_m(keyframe.depth_m[i]), point.sigma_m(),
-                                 keyframe.features.weights[i], i});
+    observations.push_back({point.p_world, keyframe.pixel[i], noise_.pixel(keyframe.octave(match.feature)),
+                            keyframe.depth_m[i], noise_.depth_m(keyframe.depth_m[i]), point.sigma_m(),
+                            keyframe.features.weights[i], i});
   }
   refined = camera_from_world;
   std::vector<std::uint8_t> inlier;
   PoseRefinement refine;
-  const std::size_t found = refine(past_observations, camera_, refined, inlier);
+  const std::size_t found = refine(observations, camera_, refined, inlier);
   std::vector<PointMatch> right;
   for (std::size_t i = 0; i < matches.size(); ++i)
     if (inlier[i] != 0) right.push_back(matches[i]);

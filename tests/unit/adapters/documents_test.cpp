@@ -92,8 +92,19 @@ const stillpoint::Camera kCamera(260, 260, 159.5, 119.5, 320, 240);
 
 /// A first frame, of which the filter keeps everything.
 struct FirstFrame {
-  cv::Mat gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(100)), depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(10000));
+  cv::Mat gray = cv::Mat(240, 320, CV_8UC1, cv::Scalar(100)), depth_m = cv::Mat(240, 320, CV_32FC1, cv::Scalar(2.0));
   stillpoint::FrameFilter<> filter = stillpoint::FrameFilter<>(kCamera);
+
+  cv::Mat depth_mm() const {
+    cv::Mat result;
+    depth_m.convertTo(result, CV_16UC1, 1000.0);
+    return result;
+  }
+  /// Whether the filter judged it: what is refused keeps everything, too, and the next frame would be the first.
+  bool was_taken() {
+    const std::vector<cv::KeyPoint> keypoints = {{100.0f, 100.0f, 31.0f}};
+    return filter.filter_frame({gray, depth_m, 2.0}, keypoints).status() != stillpoint::Status::first_frame;
+  }
 };
 
 TEST(AdoptingDocument, TheCallOfAnyHostRuns) {
@@ -101,16 +112,18 @@ TEST(AdoptingDocument, TheCallOfAnyHostRuns) {
   std::vector<cv::KeyPoint> keypoints;
   cv::Mat descriptors;
   look_alikes::fill_all(std::tie(keypoints, descriptors), 5);
-  filter_features(first.filter, first.gray, first.depth, 1.0, keypoints, descriptors);
+  filter_features(first.filter, first.gray, first.depth_mm(), 1.0, keypoints, descriptors);
   EXPECT_EQ(keypoints.size(), 5u);
+  EXPECT_TRUE(first.was_taken());
 }
 
 TEST(AdoptingDocument, TheCallInAFrameOfOrbSlamRuns) {
   FirstFrame first;
   look_alikes::OrbFrame<> frame;
   look_alikes::fill_all(std::tie(frame.mvKeys, frame.mvKeysUn, frame.mvuRight, frame.mvDepth, frame.mDescriptors), 5);
-  filter_orb_frame(first.filter, frame, first.gray, first.depth, 1.0);
+  filter_orb_frame(first.filter, frame, first.gray, first.depth_m, 1.0);
   EXPECT_EQ(frame.N, 5);
+  EXPECT_TRUE(first.was_taken());
 }
 
 struct StellaFrame {
@@ -124,8 +137,9 @@ TEST(AdoptingDocument, TheCallForStellaVslamRuns) {
   auto& observation = frame.frm_obs_;
   look_alikes::fill_all(std::tie(observation.descriptors_, observation.undist_keypts_, observation.bearings_), 5);
   std::vector<int> old_to_new;
-  filter_stella_frame(first.filter, frame, first.gray, first.depth, old_to_new);
+  filter_stella_frame(first.filter, frame, first.gray, first.depth_m, old_to_new);
   EXPECT_EQ(old_to_new, (std::vector<int>{0, 1, 2, 3, 4}));
+  EXPECT_TRUE(first.was_taken());
 }
 
 TEST(AdoptingDocument, TheMasksForOpenVinsAreItsOwn) {
@@ -148,14 +162,16 @@ TEST(AdoptingDocument, RtabmapAndVinsTakeTheResult) {
   FirstFrame first;
   std::vector<cv::KeyPoint> keypoints;
   look_alikes::fill(keypoints, 3);
+  const cv::Mat depth_mm = first.depth_mm();
   const auto& result =
-      first.filter.filter_frame({first.gray, stillpoint::DepthView::millimetres(first.depth), 1.0}, keypoints);
+      first.filter.filter_frame({first.gray, stillpoint::DepthView::millimetres(depth_mm), 1.0}, keypoints);
   SensorData data;
   set_filtered_features(result, keypoints, {}, cv::Mat(), data);
   EXPECT_EQ(data.keypoints.size(), 3u);
   std::map<int, double> feature_frame = {{0, 0.0}, {1, 0.0}, {2, 0.0}};
   erase_moving(result, {0, 1, 2}, feature_frame);
   EXPECT_EQ(feature_frame.size(), 3u);
+  EXPECT_TRUE(first.was_taken());
 }
 
 TEST(AdoptingDocument, PointsThatAreLostAreDropped) {
@@ -163,9 +179,10 @@ TEST(AdoptingDocument, PointsThatAreLostAreDropped) {
   first.gray.setTo(0);
   first.gray(cv::Rect(100, 100, 9, 9)).setTo(255);
   std::vector<cv::Point2f> previous = {{104.0f, 104.0f}, {1000.0f, 1000.0f}}, current;
-  follow(first.filter, first.gray, first.gray, first.depth, 1.0, previous, current);
+  follow(first.filter, first.gray, first.gray, first.depth_m, 1.0, previous, current);
   ASSERT_EQ(current.size(), 1u);
   EXPECT_EQ(previous, (std::vector<cv::Point2f>{{104.0f, 104.0f}}));
+  EXPECT_TRUE(first.was_taken());
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct RoomAndMover {
   Pose mover_pose;
 
   /// Of the room first. Another scene for each seed.
-  std::vector<PointObservation> past_observations(std::uint64_t seed) const {
+  std::vector<PointObservation> observations(std::uint64_t seed) const {
     Random random(seed);
     std::vector<PointObservation> result;
     for (int i = 0; i < of_room + of_mover; ++i) {
@@ -43,7 +43,7 @@ void expect_room(bool is_room, const RoomAndMover& scene, const Pose& expected) 
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     Pose pose = expected;
     std::vector<std::uint8_t> inlier;
-    ASSERT_TRUE(RobustPose{}(scene.past_observations(seed), camera(), pose, inlier)) << seed;
+    ASSERT_TRUE(RobustPose{}(scene.observations(seed), camera(), pose, inlier)) << seed;
     EXPECT_LT(error_m(pose, is_room ? Pose::Identity() : scene.mover_pose), 1e-3) << seed;
     for (int i = 0; i < scene.of_room + scene.of_mover; ++i)
       EXPECT_EQ(inlier[static_cast<std::size_t>(i)], (i < scene.of_room) == is_room ? 1 : 0) << seed;
@@ -59,7 +59,7 @@ TEST(RobustPose, WhatTheSearchRunsOffToIsComparedWithRansac) {
   for (std::uint64_t seed = 0; seed < kScenes; ++seed) {
     Pose searched = aside(0.8);
     std::vector<std::uint8_t> inlier;
-    examples::PoseRefinement{}(scene.past_observations(seed), camera(), searched, inlier);
+    examples::PoseRefinement{}(scene.observations(seed), camera(), searched, inlier);
     ASSERT_LT(error_m(searched, scene.mover_pose), 1e-3) << seed;  // else this tests something else
   }
   expect_room(true, scene, aside(0.8));
@@ -68,33 +68,33 @@ TEST(RobustPose, WhatTheSearchRunsOffToIsComparedWithRansac) {
 // Neither is near, and the search ends at the mover, which most features fit: RANSAC finds it too.
 TEST(RobustPose, FarFromTheExpectedPoseTheLikelierIsTaken) { expect_room(false, {30, 70, aside(0.6)}, aside(0.8)); }
 
-// Eleven features that three keyframes know have 33 past_observations that fit: fewer than twelve are no pose.
+// Eleven features that three keyframes know have 33 observations that fit: fewer than twelve are no pose.
 TEST(RobustPose, FeaturesAreCountedNotObservations) {
   for (const std::size_t features : {std::size_t{11}, std::size_t{12}}) {
     Random random(7);
-    std::vector<PointObservation> past_observations;
+    std::vector<PointObservation> observations;
     for (std::size_t i = 0; i < 3 * features; ++i) {
-      past_observations.push_back(observation(random, Pose::Identity()));
-      past_observations.back().feature = i % features;
+      observations.push_back(observation(random, Pose::Identity()));
+      observations.back().feature = i % features;
     }
     Pose pose = aside(0.01);
     std::vector<std::uint8_t> inlier;
-    EXPECT_EQ(RobustPose{}(past_observations, camera(), pose, inlier), features == 12) << features;
+    EXPECT_EQ(RobustPose{}(observations, camera(), pose, inlier), features == 12) << features;
     EXPECT_LT(error_m(pose, features == 12 ? Pose::Identity() : aside(0.01)), 1e-6) << features;
   }
 }
 
 TEST(RobustPose, WithoutAgreementThePoseStays) {
   Random random(8);
-  std::vector<PointObservation> past_observations;
+  std::vector<PointObservation> observations;
   for (std::size_t i = 0; i < 60; ++i) {
-    past_observations.push_back(observation(random, Pose::Identity()));
-    past_observations.back().pixel = {640 * random.uniform(), 480 * random.uniform()};
-    past_observations.back().feature = i;
+    observations.push_back(observation(random, Pose::Identity()));
+    observations.back().pixel = {640 * random.uniform(), 480 * random.uniform()};
+    observations.back().feature = i;
   }
   Pose pose = aside(0.01);
   std::vector<std::uint8_t> inlier;
-  EXPECT_FALSE(RobustPose{}(past_observations, camera(), pose, inlier));
+  EXPECT_FALSE(RobustPose{}(observations, camera(), pose, inlier));
   EXPECT_TRUE(pose.matrix() == aside(0.01).matrix());
   EXPECT_FALSE(RobustPose{}(stillpoint::span<const PointObservation>(), camera(), pose, inlier));
 }

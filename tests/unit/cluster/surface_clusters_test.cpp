@@ -181,7 +181,6 @@ TEST_F(SurfaceClustersTest, ThePriorShiftsTheOddsOnce) {
   }
 }
 
-// Weights (1 − d² / 25²)²: neighbours at 0 and at 15 px (0.64² = 0.4096) with log-odds of their clusters 7 and −1.
 // Where a detector has found a person, the rest is rather static; where it has found chairs only, that says nothing.
 TEST_F(SurfaceClustersTest, OutsideOfDynamicRegionsThingsRatherStand) {
   for (int i = 0; i < 4; ++i) add({300 + 5.0f * static_cast<float>(i), 100}, 2.0, 0.0f);
@@ -241,6 +240,7 @@ TEST_F(SurfaceClustersTest, MissingDepthSaysNothingWhereMoversMissItToo) {
   EXPECT_LT(labels_[120].log_odds, 0.4f * 5.0f + 0.4f * 7.0f - 1.5f);
 }
 
+// Weights (1 − d² / 25²)²: neighbours at 0 and at 15 px (0.64² = 0.4096) with log-odds of their clusters 7 and −1.
 TEST_F(SurfaceClustersTest, FeaturesWithoutDepthAskTheirNeighbours) {
   for (int i = 0; i < 3; ++i) add({100, 100}, 1.0, 8.0f);
   for (int i = 0; i < 3; ++i) add({115, 100}, 1.0, 0.0f);
@@ -270,7 +270,7 @@ TEST_F(SurfaceClustersTest, WhatIsOutsideOrNowhereIsAnsweredToo) {
   classify();
 }
 
-TEST_F(SurfaceClustersTest, EqualSeedsGiveEqualClusters) {
+TEST_F(SurfaceClustersTest, EqualFramesGiveEqualClusters) {
   clusters_.options.features_per_cluster = 10;
   Random random(1);
   for (int i = 0; i < 200; ++i)

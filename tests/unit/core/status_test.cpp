@@ -74,9 +74,8 @@ TEST(Warnings, AreASetWithNames) {
 
 TEST(Reason, EveryReasonHasItsOwnName) {
   std::set<std::string> names;
-  const auto count = static_cast<std::size_t>(Reason::keep_floor) + 1;
-  for (std::size_t i = 0; i < count; ++i) names.insert(to_string(static_cast<Reason>(i)));
-  EXPECT_EQ(names.size(), count);
+  for (std::size_t i = 0; i < kReasonCount; ++i) names.insert(to_string(static_cast<Reason>(i)));
+  EXPECT_EQ(names.size(), kReasonCount);
   EXPECT_EQ(names.count("?"), 0u);
   EXPECT_STREQ(to_string(Reason::moving_cluster), "moving_cluster");
 }
@@ -105,14 +104,14 @@ TEST(Timings, AddUpTheRunsOfAStage) {
   Timings timings;
   int runs = 0;
   timings.run(Stage::match, [&runs] { ++runs; });
-  const double once_ms = timings[Stage::match];
+  EXPECT_GE(timings[Stage::match], 0.0);
+  timings.ms[static_cast<std::size_t>(Stage::match)] = 1000.0;
   timings.run(Stage::match, [&runs] { ++runs; });
   EXPECT_EQ(runs, 2);
-  EXPECT_GE(once_ms, 0.0);
-  EXPECT_GE(timings[Stage::match], once_ms);
+  EXPECT_GE(timings[Stage::match], 1000.0);
   EXPECT_EQ(timings[Stage::score], 0.0);
-  timings.ms = {1, 2, 3, 4, 5, 6, 7, 8};
-  EXPECT_EQ(timings.total_ms(), 36.0);
+  timings.ms = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+  EXPECT_EQ(timings.total_ms(), 45.0);
   EXPECT_STREQ(to_string(Stage::prior), "prior");
   EXPECT_STREQ(to_string(Stage::verdict), "verdict");
 }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "unit/detectors/made_tensor.hpp"
 
@@ -56,12 +58,15 @@ TEST(DecodeYoloRaw, Version3TakesExponentials) {
 }
 
 TEST(DecodeYoloRaw, Version4WidensMiddlesByHead) {
-  const Heads heads;
+  Heads heads;
+  heads.stride16.write({0, 2, 1, 3, 0}, {kLogit});
   std::vector<RawDetection> found;
   decode_yolo_raw(views(heads.stride8, heads.stride16), kSettings, two_heads(DetectorLayout::yolov4), found);
   ASSERT_EQ(found.size(), 2u);
   // Stride 8 has 1.2: x = (1.2·0.75 - 0.1 + 5)·8 = 46.4.
   expect_box(found[0], 42.4f, 5, 50.4f, 35);
+  // Stride 16 has 1.1: x = (1.1·0.75 - 0.05 + 3)·16 = 60.4, y = (1.1·0.5 - 0.05 + 1)·16 = 24; w = 24, h = 26.
+  expect_box(found[1], 60.4f - 12, 24 - 13, 60.4f + 12, 24 + 13);
 }
 
 TEST(DecodeYoloRaw, FieldsMayBeChannelsBeforeTheCells) {
@@ -106,10 +111,25 @@ TEST(DecodeYoloRaw, RefusesOtherShapesAndTheWrongNumberOfAnchors) {
 }
 
 TEST(YoloCoding, EachFamilyHasItsAnchors) {
-  EXPECT_FLOAT_EQ(yolo_coding(DetectorLayout::yolov5).anchors[8].width, 373);
-  EXPECT_FLOAT_EQ(yolo_coding(DetectorLayout::yolov7).anchors[8].width, 459);
-  EXPECT_TRUE(yolo_coding(DetectorLayout::yolov7).squared);
-  EXPECT_FALSE(yolo_coding(DetectorLayout::yolov4).squared);
+  // Width and height of the nine, as the configuration files of YOLOv3 and YOLOv4 list them.
+  using Sizes = std::vector<std::pair<float, float>>;
+  const Sizes version3 = {{10, 13},  {16, 30},  {33, 23},   {30, 61},  {62, 45},
+                          {59, 119}, {116, 90}, {156, 198}, {373, 326}};
+  const Sizes version4 = {{12, 16},  {19, 36},   {40, 28},   {36, 75},  {76, 55},
+                          {72, 146}, {142, 110}, {192, 243}, {459, 401}};
+  const auto sizes = [](DetectorLayout family) {
+    Sizes found;
+    for (const Anchor& anchor : yolo_coding(family).anchors) found.emplace_back(anchor.width, anchor.height);
+    return found;
+  };
+  EXPECT_EQ(sizes(DetectorLayout::yolov3), version3);
+  EXPECT_EQ(sizes(DetectorLayout::yolov5), version3);
+  EXPECT_EQ(sizes(DetectorLayout::yolov4), version4);
+  EXPECT_EQ(sizes(DetectorLayout::yolov7), version4);
+  for (const DetectorLayout squared : {DetectorLayout::yolov5, DetectorLayout::yolov7})
+    EXPECT_TRUE(yolo_coding(squared).squared);
+  for (const DetectorLayout exponential : {DetectorLayout::yolov3, DetectorLayout::yolov4})
+    EXPECT_FALSE(yolo_coding(exponential).squared);
 }
 
 }  // namespace

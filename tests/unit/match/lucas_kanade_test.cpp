@@ -111,11 +111,14 @@ TEST(LucasKanade, RepeatedTextureIsLostOrAWholeNumberOfPeriodsOff) {
   LucasKanade matcher;
   const std::vector<Vector2f> pixels = grid(30);
   const Matches matches = match(matcher, frame(reference, 1.0), frame(current, 1.1), pixels);
+  std::size_t matched = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     if (!matches.matched(i)) continue;
+    ++matched;
     const float periods = (matches.reference.pixel[i].x() - (pixels[i].x() - 3.0f)) / 8.0f;
     EXPECT_NEAR(periods, std::round(periods), 0.05f);
   }
+  EXPECT_GT(matched, pixels.size() / 2) << "else the test asks little";
 }
 
 TEST(LucasKanade, NearTheBorderFeaturesAreMarked) {
@@ -142,10 +145,11 @@ TEST(LucasKanade, NearTheBorderOfTheReferenceIsMarkedToo) {
 TEST(LucasKanade, WhatLeftTheImageIsLost) {
   const cv::Mat reference = texture(0, 0), current = texture(12, 0);  // came in from the left
   LucasKanade matcher;
-  const Matches matches = match(matcher, frame(reference, 1.0), frame(current, 1.1), {{4, 60}, {5, 80}, {60, 60}});
+  matcher.options.border_px = 0;
+  const Matches matches = match(matcher, frame(reference, 1.0), frame(current, 1.1), {{2, 60}, {3, 80}, {60, 60}});
   for (std::size_t i = 0; i < 2; ++i) {
-    const Vector2f before = matches.reference.pixel[i];
-    EXPECT_TRUE(!matches.matched(i) || frame(reference, 1.0).gray.border_distance_px(before.x(), before.y()) >= 0);
+    EXPECT_EQ(matches.state[i], MatchState::lost);
+    EXPECT_TRUE(matches.reference.pixel[i].array().isNaN().all());
   }
   EXPECT_EQ(matches.state[2], MatchState::matched);
 }

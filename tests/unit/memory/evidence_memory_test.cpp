@@ -195,8 +195,7 @@ TEST_F(EvidenceMemoryTest, AMatchedFeatureIsLookedUpWhereItWas) {
   EXPECT_NEAR(labels_[0].log_odds, 1.5f, kRounding);
 }
 
-// Three frames in a second or thirty: after half a second of −1 for each tenth of a second as much is left of a
-// verdict. One frame after 0.2 s keeps a quarter.
+// Of the log-odds 3 a quarter is left after 0.2 s, in one frame or in two.
 TEST_F(EvidenceMemoryTest, LogOddsFadeWithTimeNotWithFrames) {
   frame(3.0f);
   elapsed_s_ = 0.2;

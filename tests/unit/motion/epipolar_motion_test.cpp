@@ -84,6 +84,7 @@ TEST(EpipolarMotion, RandomScenesWithNoiseAndAMover) {
   EpipolarMotion policy;
   policy.options.threshold_px = 0.6;  // 3 σ of 0.2 px
   int right = 0, within_covariance = 0;
+  double squared_errors = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     Random random(seed);
     const Pose truth = test::random_motion(random, 0.05, 0.1);
@@ -101,10 +102,13 @@ TEST(EpipolarMotion, RandomScenesWithNoiseAndAMover) {
     const Matrix3d turn = truth.linear() * motion.current_from_reference.linear().transpose();
     error << turn(2, 1), turn(0, 2), turn(1, 0),
         truth.translation() - turn * motion.current_from_reference.translation();
-    within_covariance += error.dot(motion.covariance.ldlt().solve(error)) < 6 * 4.0;  // E = 6; twice σ in every axis
+    const double squared = error.dot(motion.covariance.ldlt().solve(error));
+    within_covariance += squared < 6 * 4.0;  // E = 6; twice σ in every axis
+    squared_errors += squared;
   }
   EXPECT_GE(right, 95);
   EXPECT_GE(within_covariance, 35);  // the covariance is a lower bound
+  EXPECT_GT(squared_errors / 100, 3.0) << "half of what an honest covariance gives: no more than that too large";
 }
 
 TEST(EpipolarMotion, StationaryCameraAndPureRotationAreNamedAndHaveNoTranslation) {
@@ -201,6 +205,92 @@ TEST(EpipolarMotion, EqualSeedsGiveEqualMotions) {
   EXPECT_EQ(a.current_from_reference.matrix(), b.current_from_reference.matrix());
   EXPECT_EQ(a.covariance, b.covariance);
   EXPECT_EQ(a.inliers, b.inliers);
+  EpipolarMotion another;
+  bool differs = false;
+  for (another.options.seed = 1; another.options.seed <= 10; ++another.options.seed)
+    differs = differs || estimate(another, matches).covariance != a.covariance;
+  EXPECT_TRUE(differs) << "the seed is an option";
+}
+
+TEST(EpipolarMotion, FewerInliersThanTheLeastShareAreNoConsensus) {
+  Random random(11);
+  SceneOptions scene;
+  scene.mover_share = 0.4;
+  scene.mover = test::pose_of({0, 0.05, 0}, {0.2, 0, 0.05});
+  const Matches matches = test::make_matches(kMotion, scene, random);
+  EpipolarMotion policy;
+  policy.options.min_inlier_share = 0.5;
+  EXPECT_EQ(estimate(policy, matches).status, Status::ok);
+  policy.options.min_inlier_share = 0.7;  // 60 % are static
+  EXPECT_EQ(estimate(policy, matches).status, Status::no_consensus);
+}
+
+TEST(EpipolarMotion, NoParallaxAskedForIsNoRotation) {
+  Random random(12);
+  const Matches matches = test::make_matches(test::pose_of({0.03, -0.05, 0.02}, Vector3d::Zero()), {}, random);
+  EpipolarMotion policy;
+  EXPECT_TRUE(estimate(policy, matches).warnings.has(Warning::rotation_only));
+  policy.options.min_parallax_px = 0;
+  EXPECT_FALSE(estimate(policy, matches).warnings.has(Warning::rotation_only));
+  policy.options.min_parallax_px = 0.5;
+  policy.options.noise_sigmas = 0;  // within nothing of the matches' own noise nothing is simpler
+  EXPECT_FALSE(estimate(policy, matches).warnings.has(Warning::rotation_only));
+}
+
+TEST(EpipolarMotion, TheRotationMustExplainItsShareOfWhatTheFundamentalMatrixDoes) {
+  // A tenth of a pixel at 525 · 0.0004 / z: a third and more of the matches keep some parallax beyond the noise.
+  Random random(13);
+  SceneOptions scene;
+  scene.near_m = 0.5;
+  const Matches matches = test::make_matches(test::pose_of({0.03, -0.05, 0.02}, {0.0005, 0, 0}), scene, random);
+  EpipolarMotion policy;
+  policy.options.noise_sigmas = 100;
+  policy.options.min_parallax_px = 0.15;
+  policy.options.rotation_share = 0.2;
+  EXPECT_TRUE(estimate(policy, matches).warnings.has(Warning::rotation_only));
+  policy.options.rotation_share = 1.0;
+  EXPECT_FALSE(estimate(policy, matches).warnings.has(Warning::rotation_only));
+}
+
+TEST(EpipolarMotion, APlaneThatIsNotAskedForIsNotDegenerate) {
+  Random random(14);
+  SceneOptions plane;
+  plane.plane = true;
+  plane.pixel_noise_px = 0.02;
+  const Matches matches = test::make_matches(kMotion, plane, random);
+  EpipolarMotion policy;
+  EXPECT_EQ(estimate(policy, matches).status, Status::degenerate_geometry);
+  policy.options.planar_share = 1.5;
+  EXPECT_NE(estimate(policy, matches).status, Status::degenerate_geometry);
+}
+
+TEST(EpipolarMotion, FewerDepthsThanTheLeastGiveNoLength) {
+  Random random(15);
+  Matches matches = test::make_matches(kMotion, {}, random);
+  const double kNaN = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 5; i < matches.size(); ++i) matches.current.set_depth(i, kNaN, kNaN, test::test_camera());
+  EpipolarMotion policy;
+  policy.options.min_depths = 5;
+  EXPECT_EQ(estimate(policy, matches).status, Status::ok);
+  policy.options.min_depths = 6;
+  EXPECT_EQ(estimate(policy, matches).status, Status::no_depth);
+}
+
+TEST(EpipolarMotion, AMoverOfALowStaticPriorHasNoSay) {
+  Random random(16);
+  SceneOptions scene;
+  scene.mover_share = 0.6;
+  scene.mover = test::pose_of({0, 0.05, 0}, {0.2, 0, 0.05});
+  const Matches matches = test::make_matches(kMotion, scene, random);
+  Observations observations = test::observations_of(matches);
+  for (std::size_t i = 0; i < 120; ++i) observations.remembered.static_prior[i] = 0.3f;
+  Workspace workspace;
+  EpipolarMotion policy;
+  policy.options.least_static_prior = 0.5f;
+  const Motion motion = policy.estimate(observations, test::test_camera(), MotionPrior{}, workspace);
+  ASSERT_EQ(motion.status, Status::ok);
+  EXPECT_EQ(motion.candidates, 80);
+  EXPECT_LT(test::translation_error(motion.current_from_reference, kMotion), 1e-5);
 }
 
 }  // namespace

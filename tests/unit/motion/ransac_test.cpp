@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
 #include <vector>
 
 namespace stillpoint {
@@ -120,6 +121,18 @@ TEST(Ransac, RefinementRaisesTheSupport) {
   const auto plain = ransac(static_cast<const MockEstimator&>(estimator), options, workspace);
   EXPECT_GT(refined.support, plain.support);
   EXPECT_NEAR(refined.model, 10.0, 0.1);  // 0.3 / sqrt(120) is 0.03
+}
+
+TEST(Ransac, AnotherSeedDrawsOtherSamples) {
+  MockEstimator estimator;
+  for (int i = 0; i < 100; ++i) estimator.data.push_back(10.0 * i);
+  Workspace workspace;
+  RansacOptions options(0.5);
+  options.max_trials = 1;  // the model is what was drawn
+  std::set<double> models;
+  for (options.seed = 0; options.seed < 20; ++options.seed)
+    models.insert(ransac<InlierCountSupport>(estimator, options, workspace).model);
+  EXPECT_GT(models.size(), 10u);
 }
 
 TEST(Ransac, EarlyRejectionFindsTheSameModelAndEqualSeedsTheSameReport) {

@@ -145,6 +145,11 @@ TEST(RigidMotion, EqualSeedsGiveEqualMotions) {
   const Motion a = estimate(RigidMotion{}, matches), b = estimate(RigidMotion{}, matches);
   EXPECT_EQ(a.current_from_reference.matrix(), b.current_from_reference.matrix());
   EXPECT_EQ(a.covariance, b.covariance);
+  RigidMotion another;
+  bool differs = false;
+  for (another.options.seed = 1; another.options.seed <= 10; ++another.options.seed)
+    differs = differs || estimate(another, matches).covariance != a.covariance;
+  EXPECT_TRUE(differs) << "the seed is an option";
 }
 
 }  // namespace

@@ -125,7 +125,6 @@ TEST(SupportMotion, ThePastLosesWhereItExplainsTooLittle) {
   }
 }
 
-// The same 60 %, but known to be doubtful: from memory, or as a dynamic region.
 // 20 against 80 is more than the tenth that a motion needs which the host tells. A told motion that no consensus
 // confirms, here 3 cm or 5 px off, counts as any past.
 TEST(SupportMotion, AMotionThatTheHostTellsNeedsLess) {
@@ -145,6 +144,7 @@ TEST(SupportMotion, AMotionThatTheHostTellsNeedsLess) {
   }
 }
 
+// 60 % move, but are known to be doubtful: from memory, or as a dynamic region.
 TEST(SupportMotion, StaticPriorAndRegionsWeigh) {
   const Pose mover = test::pose_of({0, 0, 0}, {0.06, 0, 0});
   Workspace workspace;
@@ -233,6 +233,26 @@ TEST(SupportMotion, EqualSeedsGiveEqualBytes) {
             0);
   EXPECT_EQ(std::memcmp(first.covariance.data(), second.covariance.data(), sizeof(double) * 36), 0);
   EXPECT_EQ(first.inliers, second.inliers);
+  SupportMotion another = policy();
+  bool differs = false;
+  for (another.options.seed = 1; another.options.seed <= 10; ++another.options.seed)
+    differs = differs || estimate(matches, {}, another).covariance != first.covariance;
+  EXPECT_TRUE(differs) << "the seed is an option";
+}
+
+// 200 m at once explains every match, and no camera makes that; half of it is a motion.
+TEST(SupportMotion, WhatNoCameraMakesIsNoConsensus) {
+  const auto step_of = [](double length_m) {
+    Random random(8);
+    SceneOptions scene;
+    scene.near_m = 1000.0;
+    scene.far_m = 4000.0;
+    return test::make_matches(test::pose_of(Vector3d::Zero(), {length_m, 0, 0}), scene, random);
+  };
+  const Motion possible = estimate(step_of(50.0)), impossible = estimate(step_of(200.0));
+  ASSERT_EQ(possible.status, Status::ok) << to_string(possible.status);
+  EXPECT_NEAR(possible.current_from_reference.translation().x(), 50.0, 0.1);
+  EXPECT_EQ(impossible.status, Status::no_consensus) << to_string(impossible.status);
 }
 
 // ---- How exact are the matches? ----

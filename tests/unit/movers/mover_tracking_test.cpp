@@ -158,8 +158,11 @@ TEST(MoverTracking, TwoPeopleWhoCrossInASmallImageKeepTheirIdentifiers) {
     synthetic::SceneOptions options = small(100);
     options.seed = seed;
     const SceneRun run(synthetic::crossing_people(options));
-    for (const std::size_t person : {0u, 1u})
-      EXPECT_EQ(run.score.figures(person).switches, 0u) << "seed " << seed << ", person " << person;
+    for (const std::size_t person : {0u, 1u}) {
+      const MoverFigures figures = run.score.figures(person);
+      EXPECT_EQ(figures.switches, 0u) << "seed " << seed << ", person " << person;
+      EXPECT_GE(*figures.found_share(), 0.7) << "seed " << seed << ", person " << person;
+    }
   }
 }
 

@@ -216,7 +216,6 @@ TEST_F(OptionsFile, ErrorsNameFileLineOptionFoundAndExpected) {
             name + ":3: nested more than 32 deep, expected fields as name: value");
 }
 
-// What robots have: no first line of OpenCV's. A stage without an option is none.
 TEST_F(OptionsFile, ThatOfASetWithMoversIsReadByOneWithout) {
   struct MoverPolicies : WithMovers<> {};
   FrameFilter<MoverPolicies> with_movers(any_camera());
@@ -232,6 +231,7 @@ TEST_F(OptionsFile, ThatOfASetWithMoversIsReadByOneWithout) {
       << "whose options they are checks them";
 }
 
+// What robots have: no first line of OpenCV's. A stage without an option is none.
 TEST_F(OptionsFile, PlainYamlIsRead) {
   read_options(folder.write("options.yaml", "# mine\ngate:\nscorer: {pixel_sigma: 2, depth_sigmas: 3}\n"), filter);
   EXPECT_EQ(filter.scorer.options.pixel_sigma, 2.0);

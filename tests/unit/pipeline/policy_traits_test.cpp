@@ -45,13 +45,13 @@ struct NoMatcherReset : ProvidedMatches {
   void reset() = delete;
 };
 struct NoUpdate : NoMemory {
-  void update(const Matches&, const Motion&, span<const FeatureScore>, span<Label>, Workspace&) = delete;
+  void update(const Observations&, const Motion&, const Evidence&, span<Label>, Workspace&) = delete;
 };
 struct NoMemoryReset : NoMemory {
   void reset() = delete;
 };
 struct PoseAlone {
-  Pose estimate(const Matches&, const Regions&, const Camera&, const MotionPrior&, Workspace&);
+  Pose estimate(const Observations&, const Camera&, const MotionPrior&, Workspace&);
 };
 struct WordlessGate {
   void threshold(span<const FeatureScore>, const Regions&, Workspace&);

@@ -119,6 +119,7 @@ void expect_finds_or_refused(const char* name, const Expected& expected, std::st
     const FilterScore score = score_of<Set>();
     EXPECT_GE(*score.recall(), expected.least_recall) << name;
     EXPECT_LE(*score.false_positive_rate(), expected.most_false_positives) << name;
+    EXPECT_GE(*score.recall(), 2.0 * *score.false_positive_rate()) << name << ": chance would do as much";
   } else {
     refused += std::string(refused.empty() ? "" : ", ") + name;
   }

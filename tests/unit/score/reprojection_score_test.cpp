@@ -59,7 +59,7 @@ class ReprojectionScoreTest : public testing::Test {
     return scores[0].value;
   }
 
-  /// Two equal past_observations: their mean is the evidence of one.
+  /// Two equal observations: their mean is the evidence of one.
   float evidence(const Vector2f& away, float dissimilarity, float depth_m = 0.0f, double elapsed_s = 0.0) {
     matches_.past_observations.clear();
     seen(away, dissimilarity, depth_m, elapsed_s);

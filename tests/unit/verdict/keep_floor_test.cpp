@@ -124,12 +124,12 @@ TEST_F(KeepFloorTest, CountAndSpreadTogether) {
   EXPECT_EQ(rescued(), (std::set<std::size_t>{0, 1, 3})) << "two cells, then the least dynamic";
 }
 
-// Cells end at 20, 40, 60 across and 20, 40 down; what is outside belongs to the nearest cell.
+// Cells end at 20, 40, 60 across and 20, 40 down; what is outside is of no use to a tracker.
 TEST_F(KeepFloorTest, CellsCoverTheImage) {
   add({19.9f, 19.9f}, true);
   add({20.0f, 19.9f}, false, 1.0f);    // another cell
   add({0.0f, 0.0f}, false, 0.5f);      // the same one
-  add({-500.0f, -3.0f}, false, 0.1f);  // and that, from outside
+  add({-500.0f, -3.0f}, false, 0.1f);  // the least dynamic, outside
   floor_.options.fewest_cells = 2;
   EXPECT_EQ(apply(), 1u);
   EXPECT_EQ(rescued(), std::set<std::size_t>{1});
