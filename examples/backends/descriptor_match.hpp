@@ -6,7 +6,12 @@
 
 #include <opencv2/core/hal/hal.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
+
+#include "spread_orb.hpp"
 
 namespace examples {
 
@@ -18,23 +23,32 @@ inline int distance_bits(const std::uint8_t* a, const std::uint8_t* b) {
   return cv::hal::normHamming(a, b, kDescriptorBytes);
 }
 
-/// The best and the second best of those that were compared.
-struct DescriptorMatch {
-  int feature = -1;  ///< -1: none yet
-  int bits = kDescriptorBits, second_bits = kDescriptorBits;
-  int octave = -1;
+/// The best of those that were compared, and its rival.
+class DescriptorMatch {
+ public:
+  int feature = -1;            ///< the best; -1: none yet
+  int bits = kDescriptorBits;  ///< in which it differs
 
+  /// @param other_octave  of the pyramid, below SpreadOrb::kLevels
   void compare(int other, int other_octave, int other_bits) {
-    if (other_bits < bits) {
-      // Neighbouring octaves hold the same corner: only one of the best's own octave is a rival.
-      second_bits = octave == other_octave ? bits : kDescriptorBits;
-      feature = other;
-      bits = other_bits;
-      octave = other_octave;
-    } else if (other_bits < second_bits && other_octave == octave) {
-      second_bits = other_bits;
-    }
+    Octave& octave = octaves_[static_cast<std::size_t>(other_octave)];
+    octave.second_bits = std::min(octave.second_bits, std::max(octave.bits, other_bits));
+    octave.bits = std::min(octave.bits, other_bits);
+    if (other_bits >= bits) return;
+    feature = other;
+    bits = other_bits;
+    octave_ = other_octave;
   }
+
+  /// Of the second best. Neighbouring octaves hold the same corner: only one of the best's own octave is a rival.
+  int second_bits() const { return octaves_[static_cast<std::size_t>(octave_)].second_bits; }
+
+ private:
+  struct Octave {
+    int bits = kDescriptorBits, second_bits = kDescriptorBits;
+  };
+  std::array<Octave, SpreadOrb::kLevels> octaves_;
+  int octave_ = 0;
 };
 
 }  // namespace examples

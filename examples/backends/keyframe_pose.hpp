@@ -26,8 +26,9 @@ namespace examples {
 template <class Features>
 struct PointFrame {
   Features features;
-  std::vector<Vector2d> pixel;  ///< of the features, undistorted
-  std::vector<double> depth_m;  ///< of the features, 0 where there is none
+  std::vector<Vector2d> pixel;       ///< of the features, undistorted
+  std::vector<double> depth_m;       ///< of the features, 0 where there is none
+  std::vector<double> lens_stretch;  ///< of the features, undistorted pixels to one of the image there
   Pose world_from_camera = Pose::Identity();
 };
 
@@ -76,14 +77,17 @@ class KeyframePose {
     told_motion_.next_frame();
     if (keyframes_.empty()) return begin(std::move(current));
     Pose camera_from_world = stillpoint::orthonormalized(expected_motion() * camera_from_world_);
-    if (!solve_near(current, match, camera_from_world) && !relocalize(current, match, camera_from_world)) {
+    const bool is_where_expected = solve_near(current, match, camera_from_world);
+    if (!is_where_expected && !relocalize(current, match, camera_from_world)) {
       motion_ = Pose::Identity();
       if (++misses_ <= options.patience) return std::nullopt;
       keyframes_.clear();
       return begin(std::move(current));
     }
-    motion_ = misses_ > 0 ? Pose::Identity() : camera_from_world * camera_from_world_.inverse();
-    count_from_here(solve.fitting());
+    // Where it was lost, where it is found is no velocity.
+    const bool has_velocity = is_where_expected && misses_ == 0;
+    motion_ = has_velocity ? camera_from_world * camera_from_world_.inverse() : Pose::Identity();
+    count_from_here(has_velocity ? solve.fitting() : 0);
     camera_from_world_ = camera_from_world;
     current.world_from_camera = camera_from_world.inverse();
     const Pose world_from_camera = current.world_from_camera;
@@ -98,6 +102,7 @@ class KeyframePose {
     for (const cv::KeyPoint& keypoint : current.features.keypoints) {
       current.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));
       current.depth_m.push_back(depth_at(frame, keypoint.pt, options.depth_limits));
+      current.lens_stretch.push_back(stillpoint::lens_stretch(camera_, current.pixel.back()));
     }
     return current;
   }
@@ -135,7 +140,7 @@ class KeyframePose {
       const Vector3d p_keyframe_sigma_m = p_keyframe * (depth_sigma(there.depth_m) / there.depth_m);
       const double depth_m = current.depth_m[there.feature];
       observations_.push_back({keyframe.world_from_camera * p_keyframe, current.pixel[there.feature],
-                               options.pixel_sigma, depth_m, depth_sigma(depth_m),
+                               options.pixel_sigma * current.lens_stretch[there.feature], depth_m, depth_sigma(depth_m),
                                keyframe.world_from_camera.linear() * p_keyframe_sigma_m,
                                current.features.weights[there.feature], there.feature});
       source_.push_back(&keyframe);

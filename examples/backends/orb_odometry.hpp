@@ -81,7 +81,7 @@ class OrbOdometry {
         const Vector3d p = camera_from_keyframe * camera.back_project(keyframe.pixel[k], keyframe.depth_m[k]);
         if (p.z() > 0.1) grid.within(camera.distort(camera.project(p)).cast<float>(), options.search_px, compare);
       }
-      if (most_alike.feature < 0 || most_alike.bits > options.second_best * most_alike.second_bits) continue;
+      if (most_alike.feature < 0 || most_alike.bits > options.second_best * most_alike.second_bits()) continue;
       const auto best = static_cast<std::size_t>(most_alike.feature);
       if (most_alike.bits >= bits_of[best]) continue;
       bits_of[best] = most_alike.bits;

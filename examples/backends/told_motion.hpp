@@ -25,7 +25,10 @@ class ToldMotion {
   }
 
   /// The frame has a pose.
-  void restart() { since_pose_ = stillpoint::Pose::Identity(); }
+  void restart() {
+    since_pose_ = stillpoint::Pose::Identity();
+    told_.reset();
+  }
 
   /// current_from_last_with_pose; empty where a frame since then was told nothing.
   const std::optional<stillpoint::Pose>& since_pose() const { return since_pose_; }

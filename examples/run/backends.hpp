@@ -188,6 +188,7 @@ class AnyTracker {
 inline AnyTracker make_slam(const Options& options, const stillpoint::Camera& camera) {
   examples::slam::SlamOptions slam;
   slam.orb.features = options.features;
+  slam.fewest_to_begin = std::min(slam.fewest_to_begin, static_cast<std::size_t>(options.features) / 4);
   slam.maps_in_step = options.maps_in_step;
   slam.uses_multi_view = !options.slam_without("multi-view");
   slam.uses_bundle = !options.slam_without("bundle");

@@ -158,16 +158,20 @@ inline void lay_on_reference(const RunRecord& run, Figures& figures) {
   drift(run.unfiltered, without);
 }
 
-/// How far the two trajectories part, at the moments that both have a pose of.
+/// How far the two trajectories part, at the moments that both have a pose of: from the first of them on, since one may
+/// begin later than the other, at an origin of its own.
 inline stillpoint::TrajectoryErrors divergence(const stillpoint::Trajectory& filtered,
                                                const stillpoint::Trajectory& unfiltered) {
   stillpoint::TrajectoryErrors errors;
+  std::optional<stillpoint::Pose> filtered_from_unfiltered;  // worlds
   std::size_t k = 0;
   for (const auto& pose : filtered) {
     while (k < unfiltered.size() && unfiltered[k].timestamp_s < pose.timestamp_s) ++k;
     if (k == unfiltered.size()) break;
     if (unfiltered[k].timestamp_s != pose.timestamp_s) continue;
-    append_difference(errors, pose.timestamp_s, pose.world_from_camera.inverse() * unfiltered[k].world_from_camera);
+    const stillpoint::Pose& other = unfiltered[k].world_from_camera;
+    if (!filtered_from_unfiltered) filtered_from_unfiltered = pose.world_from_camera * other.inverse();
+    append_difference(errors, pose.timestamp_s, pose.world_from_camera.inverse() * *filtered_from_unfiltered * other);
   }
   return errors;
 }

@@ -5,6 +5,7 @@
 // What a run has to draw in its maps: trajectories, each laid on the reference, and the paths of movers, in axes to the
 // right, ahead and up.
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -35,16 +36,24 @@ struct DrawnPaths {
   std::vector<DrawnPath> movers;        ///< one for each of `MoverHistory`, in their order
 };
 
+/// The reference's pose nearest in time. @param reference  not empty
+inline stillpoint::Pose pose_at(const stillpoint::Trajectory& reference, double timestamp_s) {
+  const auto nearer = [timestamp_s](const auto& a, const auto& b) {
+    return std::abs(a.timestamp_s - timestamp_s) < std::abs(b.timestamp_s - timestamp_s);
+  };
+  return std::min_element(reference.begin(), reference.end(), nearer)->world_from_camera;
+}
+
 namespace detail {
 
-/// In the reference's world where the two could be aligned, else laid on its first pose.
+/// In the reference's world where the two could be aligned, else laid on its pose at the run's beginning.
 inline stillpoint::Trajectory in_reference(const RunRecord& run, const stillpoint::Trajectory& estimate,
                                            const TrajectoryFigures& figures) {
   if (!run.ground_truth || run.ground_truth->empty()) return estimate;
   if (figures.ate_rmse_m) return stillpoint::transformed(figures.reference_from_estimate, estimate);
   stillpoint::Trajectory moved = estimate;
-  for (auto& pose : moved)
-    pose.world_from_camera = run.ground_truth->front().world_from_camera * pose.world_from_camera;
+  const stillpoint::Pose start = pose_at(*run.ground_truth, run.frames.front().timestamp_s);
+  for (auto& pose : moved) pose.world_from_camera = start * pose.world_from_camera;
   return moved;
 }
 

@@ -19,6 +19,7 @@
 #include "image_offsets.hpp"
 #include "map_view.hpp"
 #include "overlay.hpp"
+#include "run_paths.hpp"
 #include "stillpoint/io/number_format.hpp"
 
 namespace stillpoint_run {
@@ -56,13 +57,8 @@ class VideoFrame {
   /// The start of the reference, where there is one: the trackers' world is their first camera.
   void begin(const RunRecord& run, double time_s) {
     stillpoint::Trajectory start = {{time_s, stillpoint::Pose::Identity()}};
-    if (run.ground_truth && !run.ground_truth->empty()) {
-      const auto nearer = [time_s](const auto& a, const auto& b) {
-        return std::abs(a.timestamp_s - time_s) < std::abs(b.timestamp_s - time_s);
-      };
-      const auto first = std::min_element(run.ground_truth->begin(), run.ground_truth->end(), nearer);
-      start.front().world_from_camera = first->world_from_camera;
-    }
+    if (run.ground_truth && !run.ground_truth->empty())
+      start.front().world_from_camera = pose_at(*run.ground_truth, time_s);
     world_from_start_ = start.front().world_from_camera;
     axes_ = MapView(start);
     start_s_ = time_s;

@@ -17,7 +17,7 @@ double squared_deviation(const Vector3d& p, const Vector3d& p_sigma_m, double si
                          const Camera& camera, const MeasurementNoise& noise) {
   const auto i = static_cast<std::size_t>(feature);
   const double across_m = std::hypot(p_sigma_m.head<2>().norm(), sigma_m);
-  const double pixel_sigma = std::hypot(noise.pixel(frame.octave(feature)), camera.fx() * across_m / p.z());
+  const double pixel_sigma = std::hypot(noise.pixel(frame, feature), camera.fx() * across_m / p.z());
   const double of_pixel = (camera.project(p) - frame.pixel[i]).squaredNorm() / (pixel_sigma * pixel_sigma);
   if (!(frame.depth_m[i] > 0)) return of_pixel;
   const double depth_sigma_m = std::hypot(noise.depth_m(frame.depth_m[i]), p_sigma_m.z(), sigma_m);

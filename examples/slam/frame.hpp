@@ -34,10 +34,15 @@ struct SeenObject {
   double u = 0.0, v = 0.0;  ///< centre, as shares of the image's width and height
 };
 
+/// Size of a pixel of a level of ORB's pyramid.
+inline double octave_scale(int octave) { return std::pow(SpreadOrb::kScale, octave); }
+inline double octave_at(double scale) { return std::log(scale) / std::log(SpreadOrb::kScale); }
+
 struct Frame {
   double timestamp_s = 0.0;
   OrbFeatures features;
   std::vector<Vector2d> pixel;         ///< undistorted
+  std::vector<double> lens_stretch;    ///< undistorted pixels to one of the image there; empty without a lens
   std::vector<double> depth_m;         ///< 0 where there is none
   std::vector<PointId> point;          ///< of the map, kNone where none was found
   std::vector<cv::Vec3b> colour;       ///< BGR
@@ -50,6 +55,11 @@ struct Frame {
   /// Nothing deviates before tracking.
   bool is_deviating(std::size_t i) const { return !deviates.empty() && deviates[i] != 0; }
   int octave(int feature) const { return features.keypoints[static_cast<std::size_t>(feature)].octave; }
+  /// Undistorted pixels to one of the level of the pyramid in which the feature was found.
+  double pixel_size(int feature) const {
+    return octave_scale(octave(feature)) *
+           (lens_stretch.empty() ? 1.0 : lens_stretch[static_cast<std::size_t>(feature)]);
+  }
   const std::uint8_t* descriptor(int feature) const { return features.descriptors.ptr(feature); }
 };
 
@@ -71,20 +81,17 @@ struct Keyframe : Frame {
   KeyframeId id = kNone;
 };
 
-/// Size of a pixel of a level of ORB's pyramid.
-inline double octave_scale(int octave) { return std::pow(SpreadOrb::kScale, octave); }
-inline double octave_at(double scale) { return std::log(scale) / std::log(SpreadOrb::kScale); }
-
 /// How wrong a feature's pixel and depth are, one standard deviation.
 struct MeasurementNoise {
   double pixel_sigma = 0.5;         ///< at full size; measured on pairs of frames whose poses are known
   double depth_sigma_factor = 3.0;  ///< times KinectNoise: depth and colour are not taken at the same moment
   stillpoint::KinectNoise depth_noise;
 
-  double pixel(int octave) const { return pixel_sigma * octave_scale(octave); }
+  /// Of a feature, undistorted pixels.
+  double pixel(const Frame& frame, int feature) const { return pixel_sigma * frame.pixel_size(feature); }
   /// Of the offset between a feature and a point that so many features have placed: each of them is as wrong as it is.
-  double pixel_to_point(int octave, std::size_t observations) const {
-    return pixel(octave) * std::sqrt(1.0 + 1.0 / static_cast<double>(std::max<std::size_t>(observations, 1)));
+  double pixel_to_point(const Frame& frame, int feature, std::size_t observations) const {
+    return pixel(frame, feature) * std::sqrt(1.0 + 1.0 / static_cast<double>(std::max<std::size_t>(observations, 1)));
   }
   double depth_m(double metres) const { return depth_sigma_factor * depth_noise.sigma(metres); }
 };

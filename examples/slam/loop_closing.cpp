@@ -110,7 +110,7 @@ bool LoopClosing::agrees(const Keyframe& keyframe, const Pose& camera_from_world
   for (const PointMatch& match : matches) {
     const auto i = static_cast<std::size_t>(match.feature);
     const MapPoint& point = map.point(match.point);
-    observations.push_back({point.p_world, keyframe.pixel[i], noise_.pixel(keyframe.octave(match.feature)),
+    observations.push_back({point.p_world, keyframe.pixel[i], noise_.pixel(keyframe, match.feature),
                             keyframe.depth_m[i], noise_.depth_m(keyframe.depth_m[i]), point.sigma_m(),
                             keyframe.features.weights[i], i});
   }

@@ -64,7 +64,7 @@ void Mapping::add_points_by_two_views(KeyframeId id, Map& map) const {
       MapPoint candidate;
       candidate.p_world = keyframe.camera_from_world.inverse() * (ray * depths.reference);
       if (!fits(candidate, keyframe, feature) || !fits(candidate, other, twin)) continue;
-      const double sigma_m = depths.reference * noise_.pixel(keyframe.octave(feature)) / camera_.fx() / parallax_rad;
+      const double sigma_m = depths.reference * noise_.pixel(keyframe, feature) / camera_.fx() / parallax_rad;
       const Vector3d ray_sigma_m = keyframe.camera_from_world.linear().transpose() * (ray * sigma_m);
       const PointId made = map.add_point(id, feature, candidate.p_world, ray_sigma_m);
       map.add_observation(made, other_id, twin);
@@ -84,7 +84,7 @@ int Mapping::most_alike(const Keyframe& keyframe, int feature, const Keyframe& o
     if (std::abs(other.octave(twin) - keyframe.octave(feature)) > 1) continue;
     const Vector3d there = camera_.back_project(other.pixel[j], 1.0);
     const double off_line_px = std::abs(plane.dot(there)) / plane.head<2>().norm() * camera_.fx();
-    if (!(off_line_px < 2.0 * noise_.pixel(other.octave(twin)))) continue;
+    if (!(off_line_px < 2.0 * noise_.pixel(other, twin))) continue;
     const int difference = distance_bits(keyframe.descriptor(feature), other.descriptor(twin));
     if (difference < bits) {
       second_bits = std::exchange(bits, difference);

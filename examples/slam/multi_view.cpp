@@ -43,7 +43,7 @@ void MultiView::add_measurements(BundleProblem& problem, const Map& map, span<co
       if (is_new) problem.views.push_back({seen.keyframe, keyframe.camera_from_world, true});
       const auto i = static_cast<std::size_t>(seen.feature);
       BundleProblem::Measurement measurement{view->second, index, keyframe.pixel[i],
-                                             noise_.pixel(keyframe.octave(seen.feature)), keyframe.depth_m[i]};
+                                             noise_.pixel(keyframe, seen.feature), keyframe.depth_m[i]};
       measurement.depth_sigma_m = noise_.depth_m(keyframe.depth_m[i]);
       measurement.weight = keyframe.features.weights[i];
       measurement.fits = squared_error(problem, measurement, camera_) < 1e6;  // in front of the camera

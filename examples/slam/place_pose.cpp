@@ -43,7 +43,7 @@ std::optional<Pose> PlacePose::operator()(const Frame& frame, KeyframeId place, 
     if (!(depth_m > 0)) continue;
     pairs.emplace_back(place_from_world * point.p_world, point.sigma_m().norm(),
                        camera_.back_project(frame.pixel[i], depth_m), noise_.depth_m(depth_m),
-                       noise_.pixel(frame.octave(best)), camera_);
+                       noise_.pixel(frame, best), camera_);
   }
   if (pairs.size() < options.fewest) return std::nullopt;
   const stillpoint::Workspace::Scope scope(workspace_);

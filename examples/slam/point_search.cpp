@@ -16,8 +16,8 @@ Projection project(const MapPoint& point, const Camera& camera, const Pose& came
   const Vector3d p_camera = camera_from_world * point.p_world;
   if (!(p_camera.z() > kNearest_m)) return result;
   result.pixel = camera.project(p_camera);
-  if (!(result.pixel.x() >= 0 && result.pixel.y() >= 0 && result.pixel.x() < camera.width() &&
-        result.pixel.y() < camera.height()))
+  const Vector2d in_image = camera.distort(result.pixel);
+  if (!(in_image.x() >= 0 && in_image.y() >= 0 && in_image.x() < camera.width() && in_image.y() < camera.height()))
     return result;
   const double distance_m = p_camera.norm();
   const Vector3d to_camera = camera_from_world.linear().transpose() * (-p_camera / distance_m);
@@ -47,7 +47,7 @@ void PointSearch::operator()(const Map& map, span<const PointId> points, const C
       if (std::abs(octave - place.octave) > 1) return;
       most_alike.compare(i, octave, distance_bits(point.descriptor.data(), frame.descriptor(i)));
     });
-    if (most_alike.bits > farthest_bits || most_alike.bits > second_best * most_alike.second_bits) continue;
+    if (most_alike.bits > farthest_bits || most_alike.bits > second_best * most_alike.second_bits()) continue;
     PointMatch& match = of_feature[static_cast<std::size_t>(most_alike.feature)];
     if (match.point == kNone || most_alike.bits < match.bits) match = {id, most_alike.feature, most_alike.bits};
   }

@@ -102,8 +102,10 @@ Frame Slam::prepare(const stillpoint::FrameView& view, const OrbFeatures& featur
   frame.features = {features.keypoints, features.descriptors.clone(), features.weights};
   frame.objects = std::exchange(objects_, {});
   frame.point.assign(features.keypoints.size(), kNone);
+  const bool has_lens = !has_no_lens(camera_.distortion());
   for (const cv::KeyPoint& keypoint : features.keypoints) {
     frame.pixel.push_back(camera_.undistort({keypoint.pt.x, keypoint.pt.y}));
+    if (has_lens) frame.lens_stretch.push_back(stillpoint::lens_stretch(camera_, frame.pixel.back()));
     frame.depth_m.push_back(depth_at(view, keypoint.pt, options.depth_limits));
     const int u = cvRound(keypoint.pt.x), v = cvRound(keypoint.pt.y);
     if (!view.colour.empty()) {

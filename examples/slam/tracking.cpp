@@ -19,7 +19,9 @@ bool Tracking::locate(Frame& frame, Map& map, const MeasurementNoise& noise) {
 
 bool Tracking::locate_by(KeyframeId place, const Pose& camera_from_world, Frame& frame, Map& map,
                          const MeasurementNoise& noise) {
-  return locate_from(camera_from_world, map.keyframe(place).point, frame, map, noise);
+  if (!locate_from(camera_from_world, map.keyframe(place).point, frame, map, noise)) return false;
+  ++misses_;  // it was lost: where it is found is no velocity
+  return true;
 }
 
 Pose Tracking::expected_camera_from_world(const Map& map) const {
@@ -114,7 +116,7 @@ void Tracking::see(const Frame& frame, const Map& map, span<const PointMatch> ma
     const MapPoint& point = map.point(match.point);
     const auto i = static_cast<std::size_t>(match.feature);
     const double depth_m = frame.depth_m[i];
-    const double pixel_sigma = noise.pixel_to_point(frame.octave(match.feature), point.observations.size());
+    const double pixel_sigma = noise.pixel_to_point(frame, match.feature, point.observations.size());
     observations_.push_back({point.p_world, frame.pixel[i], pixel_sigma, depth_m, noise.depth_m(depth_m),
                              point.sigma_m(), frame.features.weights[i], i});
   }

@@ -34,6 +34,7 @@
 // pose, `expect_motion` only where the filter knows the motion and its length.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -177,6 +178,7 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
       weigh(result, features);
       features.compact(result.keep());
       tell_motion(result);
+      last_timestamp_s_ = frame.timestamp_s;
       const std::optional<Pose> world_from_camera = backend.track(frame, features);
       if (world_from_camera) feed_back(*world_from_camera);
       return world_from_camera;
@@ -198,7 +200,9 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
   void tell_motion(const Result& result) {
     if constexpr (has_expect_motion<Backend>::value && has_motion<Result>::value) {
       const Motion& motion = result.motion();
-      if (motion.usable() && motion.metric) backend.expect_motion(motion.current_from_reference);
+      // Over a frame that the filter refused, and the backend saw, a motion is no step from the last frame.
+      const bool reaches_back = motion.reference_timestamp_s < last_timestamp_s_;
+      if (motion.usable() && motion.metric && !reaches_back) backend.expect_motion(motion.current_from_reference);
     }
   }
 
@@ -212,6 +216,7 @@ class FilteredTracker : private TrackerContract<Filter, Backend> {
   }
 
   std::vector<float> weights_;
+  double last_timestamp_s_ = std::numeric_limits<double>::quiet_NaN();  ///< of the frame that the backend saw last
 };
 
 }  // namespace stillpoint

@@ -302,15 +302,21 @@ TEST_F(Demo, StartsWhereItIsTold) {
   EXPECT_EQ(part[1][1], "first_frame");
 }
 
-TEST(DemoChoices, EveryChoiceRuns) {
+// Each choice is used, not only taken: no two runs write the same figures of features and options.
+TEST(DemoChoices, EveryChoiceCounts) {
   const TemporaryFolder other;
+  std::map<std::string, std::string> choice_of;
   for (const char* choice :
-       {"--ego-motion rigid", "--ego-motion epipolar", "--policies paper", "--policies paper --ego-motion rigid",
+       {"", "--ego-motion rigid", "--ego-motion epipolar", "--policies paper", "--policies paper --ego-motion rigid",
         "--policies paper --paper-as-printed eq3,eq8,unit-t", "--prior boxes", "--depth-noise stereo",
-        "--depth-noise tof", "--prior none", "--features 50"}) {
+        "--depth-noise tof", "--features 50"}) {
     const Outcome outcome =
         run_program(std::string("--demo --quiet --frames 2 --out ") + quoted(other / "out") + ' ' + choice);
-    EXPECT_EQ(outcome.status, 0) << choice << '\n' << outcome.error;
+    ASSERT_EQ(outcome.status, 0) << choice << '\n' << outcome.error;
+    const Json report = Json::parse(read_text(other / "out" / "report.json"));
+    const auto [first, is_new] =
+        choice_of.emplace(read_text(other / "out" / "features.csv") + report["options"].dump(), choice);
+    EXPECT_TRUE(is_new) << "'" << choice << "' does what '" << first->second << "' does";
   }
 }
 
@@ -339,6 +345,30 @@ TEST(DemoChoices, EveryTrackerRuns) {
     EXPECT_EQ(split(read_text(out / "trajectory.txt"), '\n').size(), 4u) << backend;
     EXPECT_EQ(split(read_text(out / "trajectory_unfiltered.txt"), '\n').size(), 4u) << backend;
   }
+}
+
+TEST(DemoChoices, TheSlamLeavesItsMap) {
+#ifndef STILLPOINT_RUN_HAS_SLAM
+  GTEST_SKIP() << "stillpoint_run was built without Ceres (Debian: libceres-dev), so it has no --backend slam";
+#endif
+  const TemporaryFolder folder;
+  const auto run = [&](const fs::path& out, const std::string& more) {
+    return run_program("--demo --quiet --backend slam --mapping-in-step --frames 30 --out " + quoted(out) + more);
+  };
+  const fs::path out = folder / "out", again = folder / "again", plain = folder / "plain", few = folder / "few";
+  const Outcome outcome = run(out, "");
+  ASSERT_EQ(outcome.status, 0) << outcome.error;
+  for (const char* name : {"trajectory.txt", "trajectory_live.txt"})
+    EXPECT_EQ(split(read_text(out / name), '\n').size(), 31u) << name << ": a header and a pose for each frame";
+  EXPECT_EQ(read_text(out / "map.ply").rfind("ply\nformat ascii 1.0\n", 0), 0u);
+  EXPECT_FALSE(fs::exists(out / "map_before_loop.ply")) << "no loop in a second";
+  ASSERT_EQ(run(again, "").status, 0);
+  for (const char* name : {"map.ply", "trajectory.txt"})
+    EXPECT_EQ(read_text(out / name), read_text(again / name)) << "in step: the same bytes";
+  ASSERT_EQ(run(plain, " --slam-without multi-view,bundle,loops,semantics").status, 0);
+  EXPECT_NE(read_text(out / "map.ply"), read_text(plain / "map.ply")) << "what is left out was used";
+  ASSERT_EQ(run(few, " --features 90").status, 0);
+  EXPECT_EQ(split(read_text(few / "trajectory.txt"), '\n').size(), 31u) << "90 features begin a map, too";
 }
 
 TEST(DemoChoices, ADetectorMayBeSlowOrMiss) {

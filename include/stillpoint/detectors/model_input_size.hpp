@@ -125,8 +125,8 @@ inline void read_darknet_size(const std::string& line, const std::string& name, 
 
 }  // namespace detail
 
-/// Size of the first input 1x3xHxW of an ONNX file (onnx.proto: ModelProto.graph 7, GraphProto.input 11); zeros where
-/// the file leaves it free or is no such file.
+/// Size of the first input 1x3xHxW of an ONNX file; one of a free number of images counts, weights do not (onnx.proto:
+/// ModelProto.graph 7, GraphProto.input 11); zeros where the file leaves it free or is no such file.
 inline InputSize onnx_input_size(const std::filesystem::path& file) {
   std::error_code error;
   const auto bytes = static_cast<std::int64_t>(std::filesystem::file_size(file, error));
@@ -138,7 +138,7 @@ inline InputSize onnx_input_size(const std::filesystem::path& file) {
       if (graph.number != 11) continue;
       std::string name;
       const std::vector<int> shape = detail::onnx_shape(graph.message(), name);
-      if (shape.size() == 4 && shape[1] == 3) return {shape[3], shape[2]};
+      if (shape.size() == 4 && shape[0] <= 1 && shape[1] == 3) return {shape[3], shape[2]};
     }
   }
   return {};

@@ -21,14 +21,28 @@ namespace stillpoint {
 
 namespace detail {
 
+/// Whether a JPEG reaches its end (ITU-T T.81, B.1). What lies behind it, such as a phone's video, is not looked at.
+inline bool is_whole_jpeg(std::string_view bytes) {
+  const auto byte = [bytes](std::size_t i) -> std::size_t { return static_cast<unsigned char>(bytes[i]); };
+  std::size_t at = 2;
+  while ((at = bytes.find('\xff', at)) != bytes.npos && at + 1 < bytes.size()) {
+    const std::size_t marker = byte(at + 1);
+    const bool stands_alone = marker <= 0x01 || (marker >= 0xd0 && marker <= 0xd7);  // 0, in a scan, is no marker
+    if (marker == 0xd9) return true;
+    if (marker == 0xff)  // fills up
+      at += 1;
+    else if (stands_alone || at + 3 >= bytes.size())
+      at += 2;
+    else
+      at += 2 + (byte(at + 2) << 8) + byte(at + 3);
+  }
+  return false;
+}
+
 /// False for a PNG or JPEG that breaks off. Decoders fill up what is missing of a JPEG with gray and say nothing.
 inline bool is_whole_image(std::string_view bytes) {
   if (bytes.substr(0, 4) == "\x89PNG") return bytes.rfind("IEND") != bytes.npos;
-  if (bytes.substr(0, 2) == "\xff\xd8") {
-    // Between the start of the last scan and its end, 0xff is always followed by 0 or a restart marker.
-    const std::size_t last_scan = bytes.rfind("\xff\xda");
-    return last_scan != bytes.npos && bytes.find("\xff\xd9", last_scan) != bytes.npos;
-  }
+  if (bytes.substr(0, 2) == "\xff\xd8") return is_whole_jpeg(bytes);
   return true;  // some other format: its decoder decides
 }
 

@@ -42,6 +42,14 @@ inline std::uint64_t read_matroska_size(std::istream& stream) {
   return value == all_ones ? kUnknown : value;
 }
 
+/// Boxes that stand side by side in a file (ISO/IEC 14496-12, and QuickTime's).
+inline bool is_mp4_box(std::string_view name) {
+  for (const std::string_view known : {"ftyp", "moov", "mdat", "free", "skip", "wide", "pnot", "udta", "uuid", "meta",
+                                       "pdin", "moof", "mfra", "sidx", "ssix", "styp", "prft", "emsg"})
+    if (name == known) return true;
+  return false;
+}
+
 /// How many bytes the file says that it has at least, as far as its outermost parts tell; 0 where it does not say.
 inline std::uint64_t stated_size(std::istream& stream, std::uint64_t size) {
   char head[8] = {};
@@ -58,7 +66,9 @@ inline std::uint64_t stated_size(std::istream& stream, std::uint64_t size) {
     for (int parts = 0; at + 8 <= size && parts < 10000; ++parts) {
       stream.seekg(static_cast<std::streamoff>(at));
       std::uint64_t length = read_number(stream, 4, true);
-      stream.seekg(static_cast<std::streamoff>(at + 8));
+      char name[4] = {};
+      stream.read(name, sizeof name);
+      if (!is_mp4_box({name, 4})) return at;  // what a camera's maker has put behind
       if (length == 1) length = read_number(stream, 8, true);
       if (length < 8 || at + length < at) return at;  // 0: up to the end
       at += length;

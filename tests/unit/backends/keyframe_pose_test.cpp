@@ -30,15 +30,19 @@ class StandingTracker : public testing::Test {
     track(0);  // the first keyframe
   }
 
-  /// @param found  so many of the features
-  /// @return       camera_from_world as it was expected first
-  Pose track(std::size_t found) {
+  stillpoint::FrameView view() const {
     const stillpoint::ImageView depth(depth_.data(), 640, 480, 640 * sizeof(std::uint16_t),
                                       stillpoint::PixelFormat::depth16);
     stillpoint::FrameView frame;
     frame.depth = stillpoint::DepthView(depth, 5000.0);
+    return frame;
+  }
+
+  /// @param found  so many of the features
+  /// @return       camera_from_world as it was expected first
+  Pose track(std::size_t found) {
     std::optional<Pose> first_expected;
-    pose_ = tracker_.track(frame, features_,
+    pose_ = tracker_.track(view(), features_,
                            [&](const auto& keyframe, const auto&, const Pose& expected, bool, auto& again) {
                              if (!first_expected) first_expected = expected;
                              for (std::size_t i = 0; i < found; ++i)
@@ -79,6 +83,33 @@ TEST_F(StandingTracker, AddsUpWhatItIsToldWhileItIsLost) {
   }
   tracker_.expect_motion(aside(0.04));
   EXPECT_TRUE(track(0).isApprox(aside(0.09), 1e-6)) << "of the three frames since the last pose";
+}
+
+// 0.3 m at once, in the frame in which it was lost: a keyframe shows it, and the next is expected there.
+TEST_F(StandingTracker, WhereItIsFoundAnewIsNoVelocity) {
+  track(100);
+  const auto track_at = [&](double x_m) {
+    std::optional<Pose> first_expected;
+    const stillpoint::FrameView frame = view();
+    pose_ = tracker_.track(frame, features_,
+                           [&](const auto& keyframe, const auto&, const Pose& expected, bool is_lost, auto& again) {
+                             if (!first_expected) first_expected = expected;
+                             if (!is_lost && (expected.translation() - aside(x_m).translation()).norm() > 0.1) return;
+                             const double keyframe_x_m = -keyframe.world_from_camera.translation().x();
+                             const double step_px = camera().fx() * (x_m - keyframe_x_m) / 2.0;
+                             for (std::size_t i = 0; i < 100; ++i)
+                               again.push_back({i, keyframe.pixel[i] - stillpoint::Vector2d(step_px, 0), 2.0});
+                           });
+    return first_expected->translation().x();
+  };
+  track_at(-0.3);
+  ASSERT_TRUE(pose_);
+  ASSERT_NEAR(pose_->translation().x(), 0.3, 1e-3);
+  EXPECT_NEAR(track_at(-0.3), -0.3, 1e-3) << "not as far again";
+  track_at(0.1);
+  ASSERT_TRUE(pose_);
+  tracker_.expect_motion(aside(0.05));
+  EXPECT_NEAR(track_at(0.15), 0.15, 1e-3) << "whoever knows the motion is listened to";
 }
 
 TEST_F(StandingTracker, AFrameThatIsToldNothingEndsTheSum) {

@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "backends/descriptor_match.hpp"
 #include "backends/klt_odometry.hpp"
 #include "backends/orb_odometry.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
@@ -22,6 +24,22 @@ namespace {
 using examples::KltOdometry;
 using examples::OrbOdometry;
 using stillpoint::Pose;
+
+// Whatever the order in which features come: the second best is that of the best's octave, found before it or after.
+TEST(DescriptorMatch, TheRivalIsOfTheBestsOctave) {
+  std::vector<std::pair<int, int>> octave_bits = {{2, 40}, {2, 42}, {3, 41}};
+  do {
+    examples::DescriptorMatch match;
+    for (const auto& [octave, bits] : octave_bits) match.compare(bits, octave, bits);
+    EXPECT_EQ(match.feature, 40);
+    EXPECT_EQ(match.bits, 40);
+    EXPECT_EQ(match.second_bits(), 42);
+  } while (std::next_permutation(octave_bits.begin(), octave_bits.end()));
+  examples::DescriptorMatch alone;
+  EXPECT_EQ(alone.feature, -1);
+  alone.compare(7, 5, 30);
+  EXPECT_EQ(alone.second_bits(), examples::kDescriptorBits);
+}
 
 /// One frame of the static room, and what the tracker is given of it.
 struct Step {

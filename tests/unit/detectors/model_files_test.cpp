@@ -110,7 +110,8 @@ TEST(ModelInputSize, OnnxSaysItInItsFirstPicture) {
     return field(11, field(1, name) + field(2, field(1, integer(1, 1) + field(2, dimensions))));
   };
   const std::string graph = field(5, std::string(1000, 'w')) + input("orig_target_sizes", {1, 2}) +
-                            input("depth", {1, 1, 64, 64}) + input("image", {1, 3, 192, 320});
+                            input("conv1.weight", {64, 3, 7, 7}) + input("depth", {1, 1, 64, 64}) +
+                            input("image", {1, 3, 192, 320});
   const std::string model = integer(1, 8) + field(2, "a test") + field(7, graph);
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "net.onnx";

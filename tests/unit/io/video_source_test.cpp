@@ -94,6 +94,7 @@ TEST_F(VideoSourceTest, OtherContainersStateTheirSizeToo) {
           16);
   EXPECT_EQ(missing(ftyp + mdat), 0u);
   EXPECT_EQ(missing(ftyp + mdat.substr(0, 11)), 5u);
+  EXPECT_EQ(missing(ftyp + mdat + std::string(100, 'Z')), 0u) << "what a camera's maker has put behind is no box";
   EXPECT_EQ(missing(ftyp + std::string("\0\0\0\x01"
                                        "mdat\0\0\0\0\0\0\0\x14"
                                        "123",

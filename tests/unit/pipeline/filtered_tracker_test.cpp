@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -195,6 +196,27 @@ TEST(FilteredTracker, TellsTheBackendNoMotionThatIsNone) {
   tracker.filter.motion.metric = false;  // nobody knows how long it is
   tracker.track(FrameView{});
   EXPECT_TRUE(tracker.backend.expected_x_m.empty());
+}
+
+// The third frame has depth of kilometres: the filter refuses it, the backend sees it. The filter's next motion goes
+// back to the second.
+TEST(FilteredTracker, TellsTheBackendNoMotionThatReachesBackOverAFrame) {
+  auto tracker = mock_tracker();
+  Motion& motion = tracker.filter.motion;
+  motion.current_from_reference = at_x(0.25);
+  const auto track_at = [&](double timestamp_s, Status status, double reference_timestamp_s) {
+    motion.status = status;
+    motion.reference_timestamp_s = reference_timestamp_s;
+    FrameView frame;
+    frame.timestamp_s = timestamp_s;
+    tracker.track(frame);
+    return tracker.backend.expected_x_m.size();
+  };
+  track_at(1.0, Status::first_frame, std::nan(""));
+  EXPECT_EQ(track_at(2.0, Status::ok, 1.0), 1u);
+  EXPECT_EQ(track_at(3.0, Status::implausible_depth, std::nan("")), 1u);
+  EXPECT_EQ(track_at(4.0, Status::ok, 2.0), 1u);
+  EXPECT_EQ(track_at(5.0, Status::ok, 4.0), 2u);
 }
 
 TEST(FilteredTracker, TellsTheFilterNothingThatIsNotToBelieveTheBackend) {

@@ -164,6 +164,29 @@ TEST(Figures, WithoutReferenceTheyPart) {
   EXPECT_TRUE(figures.unfiltered.drift.timestamps_s.empty());
 }
 
+// A tracker that begins two frames later begins at its own origin.
+TEST(Figures, TrajectoriesThatBeginAtOtherFramesPartByTheirDrift) {
+  RunRecord run = bent_run(false);
+  run.filtered.erase(run.filtered.begin(), run.filtered.begin() + 2);
+  const Pose start = run.filtered.front().world_from_camera.inverse();
+  for (auto& pose : run.filtered) pose.world_from_camera = start * pose.world_from_camera;
+  const Figures figures = evaluate(run);
+  ASSERT_TRUE(figures.divergence_max_m);
+  EXPECT_NEAR(*figures.divergence_max_m, 4.0, 1e-9);
+  EXPECT_NEAR(figures.divergence.translation_m.front(), 0.0, 1e-9);
+}
+
+// Frames from 2 s on of a recording whose reference begins at 0 s. Two poses cannot be aligned.
+TEST(DrawnPaths, WhatIsNotAlignedBeginsWhereTheRunDoes) {
+  RunRecord run = bent_run(true);
+  run.frames.erase(run.frames.begin(), run.frames.begin() + 2);
+  const Pose second = (*run.ground_truth)[2].world_from_camera;
+  run.filtered = {{run.frames[0].timestamp_s, Pose::Identity()}};
+  run.unfiltered.clear();
+  const stillpoint::Trajectory laid = detail::in_reference(run, run.filtered, {});
+  EXPECT_LT((laid.front().world_from_camera.translation() - second.translation()).norm(), 1e-12);
+}
+
 std::vector<std::string> reasons_at(const std::vector<Moment>& moments, std::size_t frame) {
   for (const Moment& moment : moments)
     if (moment.frame == frame) return moment.reasons;
