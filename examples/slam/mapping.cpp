@@ -101,7 +101,7 @@ bool Mapping::fits(const MapPoint& point, const Keyframe& keyframe, int feature)
   const auto i = static_cast<std::size_t>(feature);
   const Vector3d p = keyframe.camera_from_world * point.p_world;
   if (!(p.z() > 0.1)) return false;
-  const double pixel_sigma = noise_.pixel_to_point(keyframe.octave(feature), point.observations.size());
+  const double pixel_sigma = noise_.pixel_to_point(keyframe, feature, point.observations.size());
   const double pixel_error = (camera_.project(p) - keyframe.pixel[i]).norm() / pixel_sigma;
   const double depth_m = keyframe.depth_m[i];
   if (!(depth_m > 0)) return pixel_error * pixel_error < chi_squared_limit(false);

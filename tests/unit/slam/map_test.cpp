@@ -140,12 +140,12 @@ TEST(Frame, WhatTheMapExplainsIsCountedBySquaredWeight) {
 TEST(Mapping, APointSeenOnceIsAsWrongAsAFeature) {
   const std::vector<Vector3d> points = made_points(60);
   const slam::MeasurementNoise noise;
-  EXPECT_DOUBLE_EQ(noise.pixel_to_point(0, 1), std::sqrt(2.0) * noise.pixel(0));
-  EXPECT_NEAR(noise.pixel_to_point(2, 1000), noise.pixel(2), 1e-3 * noise.pixel(2));
   slam::Map map = made_map(points, 1);
   slam::Frame frame = made_frame(points, camera_at(0.05));
+  EXPECT_DOUBLE_EQ(noise.pixel_to_point(frame, 0, 1), std::sqrt(2.0) * noise.pixel(frame, 0));
+  EXPECT_NEAR(noise.pixel_to_point(frame, 0, 1000), noise.pixel(frame, 0), 1e-3 * noise.pixel(frame, 0));
   for (std::size_t i = 0; i < 20; ++i) frame.point[i] = static_cast<slam::PointId>(i);  // by which it is covisible
-  for (Vector2d& pixel : frame.pixel) pixel.x() += 3 * noise.pixel(0);
+  for (Vector2d& pixel : frame.pixel) pixel.x() += 3 * noise.pixel_sigma;
   const slam::KeyframeId id = map.add(frame);
   slam::Mapping(camera(), noise).connect(id, map);
   int named = 0;
