@@ -135,7 +135,7 @@ TEST_F(BrokenInput, PipesAndDevicesAsTextFiles) {
 }
 
 TEST_F(BrokenInput, StandardOutputThatIsFull) {
-  if (!fs::exists("/dev/full")) GTEST_SKIP();
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const std::string program = std::string("\"") + STILLPOINT_RUN_PROGRAM + "\" ", error = quoted(folder / "error");
   for (const std::string& more : {arguments(), std::string("--help")}) {
     const int code = std::system((program + more + " > /dev/full 2> " + error).c_str());

@@ -6,25 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
 #include "stillpoint/core/regions.hpp"
 #include "stillpoint/detectors/mobility_table.hpp"
 #include "unit/detectors/made_tensor.hpp"
+#include "unit/temporary_folder.hpp"
 
 namespace stillpoint {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A file of the test's own, with this text.
-fs::path file_with(const std::string& text) {
-  const fs::path file = fs::path(testing::TempDir()) /
-                        (std::string("stillpoint_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-  std::ofstream(file, std::ios::binary) << text;
-  return file;
-}
 
 TEST(ClassList, ListsOfTheLibrary) {
   EXPECT_EQ(ClassList::coco().size(), 80u);
@@ -67,7 +59,9 @@ TEST(ClassList, WhoMovesInCityscapesIsKnown) {
 }
 
 TEST(ClassList, OneNameALine) {
-  const ClassList list = ClassList::read(file_with("\xef\xbb\xbfperson\r\n  traffic light \n???\ncar\n\n\n"));
+  const TemporaryFolder folder;
+  const ClassList list =
+      ClassList::read(folder.write("my.names", "\xef\xbb\xbfperson\r\n  traffic light \n???\ncar\n\n\n"));
   ASSERT_EQ(list.size(), 4u);
   EXPECT_EQ(list[0], "person");
   EXPECT_EQ(list[1], "traffic light");
@@ -76,14 +70,16 @@ TEST(ClassList, OneNameALine) {
 }
 
 TEST(ClassList, NamedIsAListOrAFile) {
+  const TemporaryFolder folder;
   EXPECT_EQ(ClassList::named("coco").size(), 80u);
   EXPECT_EQ(ClassList::named("voc21").size(), 21u);
-  EXPECT_EQ(ClassList::named(file_with("thing").string())[0], "thing");
+  EXPECT_EQ(ClassList::named(folder.write("my.names", "thing").string())[0], "thing");
 }
 
 TEST(ClassList, ErrorsNameFileAndLine) {
-  const auto error = [](const std::string& text) {
-    const fs::path file = file_with(text);
+  const TemporaryFolder folder;
+  const auto error = [&folder](const std::string& text) {
+    const fs::path file = folder.write("my.names", text);
     const std::string message = error_of([&] { ClassList::read(file); });
     EXPECT_EQ(message.find(file.string()), 0u) << message;
     return message.substr(std::min(file.string().size(), message.size()));

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <opencv2/core.hpp>
 #include <vector>
 
@@ -17,6 +16,8 @@
 #include <stillpoint/detectors/onnxruntime.hpp>
 #endif
 // clang-format on
+
+#include "unit/temporary_folder.hpp"
 
 namespace {
 
@@ -58,8 +59,8 @@ stillpoint::OnnxRuntimeDetector detector(model, options);       // .onnx
 #endif
 
 TEST(Documents, OptionsOfNetworksThatAreNotAsUsual) {
-  const std::string names_file = (std::filesystem::path(testing::TempDir()) / "stillpoint_my.names").string();
-  std::ofstream(names_file) << "person\nrobot\n";
+  const stillpoint::TemporaryFolder folder;
+  const std::string names_file = folder.write("my.names", "person\nrobot\n").string();
   stillpoint::DetectorOptions tiny, ssd;
   // clang-format off
 tiny.layout = stillpoint::DetectorLayout::yolov3;

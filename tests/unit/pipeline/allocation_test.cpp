@@ -118,18 +118,21 @@ TEST(Allocation, ColourFramesAndMasksReuseTheirMemoryToo) {
   mock::Clip clip(2, 10);
   FrameFilter<RigidOnTracks> filter(mock::Clip::camera());
   ImageBuffer mask;
-  std::size_t after_warm_up = 0;
+  std::size_t judged_frames = 0, after_warm_up = 0;
   for (std::size_t f = 0; f < clip.frames.size(); ++f) {
     cv::Mat colour;
     cv::cvtColor(clip.frames[f].gray, colour, cv::COLOR_GRAY2BGR);
     hand_over(clip.frames[f], filter.matcher);
     const FrameView frame(colour, DepthView::tum(clip.frames[f].depth), clip.frames[f].time_s);
     const std::size_t allocated = count_in([&] {
-      filter.filter_frame(frame, clip.frames[f].keypoints).mask(mask);
+      const FrameResult& result = filter.filter_frame(frame, clip.frames[f].keypoints);
+      result.mask(mask);
+      judged_frames += judged(result.status());
       filter.feedback(Pose::Identity());
     });
     if (f >= 4) after_warm_up += allocated;
   }
+  EXPECT_GE(judged_frames, 8u) << "a filter that judges nothing proves nothing";
   EXPECT_EQ(after_warm_up, 0u);
 }
 

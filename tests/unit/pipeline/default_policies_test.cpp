@@ -6,12 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 #include <vector>
 
 #include "clip.hpp"
+#include "stillpoint/core/random.hpp"
 #include "stillpoint/policies.hpp"
 
 namespace stillpoint::default_policies_test {
@@ -92,11 +94,13 @@ TEST_F(DefaultFilter, ImagesOnePixelWideOrHigh) {
     FrameFilter<> filter(Camera(50, 50, 0.5 * width, 0.5 * height, width, height));
     const cv::Mat depth(height, width, CV_16UC1, cv::Scalar(9000));
     cv::Mat gray(height, width, CV_8UC1);
+    Random random(1);
     std::vector<Vector2f> keypoints;
     for (int i = 0; i < 200; i += 2)
       keypoints.emplace_back(static_cast<float>(i % width), static_cast<float>(i % height));
     for (int f = 0; f < 4; ++f) {
-      cv::randu(gray, 0, 255);
+      for (int v = 0; v < height; ++v)
+        for (int u = 0; u < width; ++u) gray.at<std::uint8_t>(v, u) = static_cast<std::uint8_t>(random.index(255));
       const FrameResult& result = filter.filter_frame(FrameView(gray, DepthView::tum(depth), 0.1 * f), keypoints);
       expect_sound(result, keypoints.size());
       EXPECT_NE(result.status(), Status::depth_unit_missing) << "then no stage runs";

@@ -130,8 +130,9 @@ TEST_F(FrameCheckTest, NamesTimesThatDoNotFollow) {
 }
 
 TEST_F(FrameCheckTest, RejectsWhatIsNoFrame) {
-  for (const Status status : {Status::no_image, Status::unsupported_image, Status::size_changed, Status::invalid_time,
-                              Status::duplicate_frame})
+  for (const Status status :
+       {Status::no_image, Status::unsupported_image, Status::depth_unit_missing, Status::implausible_depth,
+        Status::size_changed, Status::invalid_time, Status::invalid_options, Status::duplicate_frame})
     EXPECT_TRUE(FrameCheck::rejects(status)) << to_string(status);
   for (const Status status : {Status::ok, Status::first_frame, Status::out_of_order, Status::time_gap})
     EXPECT_FALSE(FrameCheck::rejects(status)) << to_string(status);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
@@ -111,6 +112,38 @@ TEST_F(UseCheckTest, FramesOfTheSameTimeAreSaidAfterTwenty) {
   EXPECT_FALSE(warns(Warning::times_far_apart));
   observe(20, Status::duplicate_frame);
   EXPECT_TRUE(warns(Warning::times_far_apart));
+}
+
+std::string hint_of(Warning warning) {
+  Warnings warnings;
+  warnings.add(warning);
+  return UseCheck::hint(Status::ok, warnings);
+}
+
+TEST_F(UseCheckTest, WhatIsSaidNamesWhatToLookAt) {
+  EXPECT_NE(hint_of(Warning::motion_too_fast).find("metres from frame to frame"), std::string::npos);
+  EXPECT_NE(hint_of(Warning::nothing_fits).find("Hardly a frame can be judged"), std::string::npos);
+  EXPECT_NE(hint_of(Warning::times_far_apart).find("in seconds"), std::string::npos);
+}
+
+// Limits: twice as far, half as far, and a step of 1 cm.
+TEST_F(UseCheckTest, AHostOfAnotherScaleIsSaidAfterTwenty) {
+  const auto compare = [this](int frames, double host_m, double filter_m) {
+    Pose host = Pose::Identity();
+    host.translation().x() = host_m;
+    Motion motion;
+    motion.status = Status::ok;
+    motion.metric = true;
+    motion.current_from_reference.translation().x() = filter_m;
+    for (int i = 0; i < frames; ++i) check_.compare(host, motion);
+    return warns(Warning::scale_differs);
+  };
+  EXPECT_FALSE(compare(30, 0.009, 0.001)) << "smaller steps are noise";
+  EXPECT_FALSE(compare(30, 0.1, 0.051));
+  EXPECT_FALSE(compare(19, 0.1, 0.049));
+  EXPECT_TRUE(compare(1, 0.1, 0.049)) << "twice as far";
+  EXPECT_FALSE(compare(10, 0.1, 0.1));
+  EXPECT_TRUE(compare(20, 0.02, 0.1)) << "a fifth";
 }
 
 TEST_F(UseCheckTest, WithoutAnyDepthTheFirstFrameSaysSo) {

@@ -105,6 +105,9 @@ TEST(CameraInfo, CamerasShowAlikeWithinTheNoiseOfACorner) {
   EXPECT_FALSE(show_alike(camera(525, 320), camera(525, 320.3)));
   EXPECT_FALSE(show_alike(camera(525, 320), camera(525, 320, {stillpoint::BrownConrady{0.1, 0, 0, 0, 0}})));
   EXPECT_FALSE(show_alike(camera(525, 320), stillpoint::Camera(525, 525, 320, 240, 640, 360)));
+  // 120 px above the middle: fy of 525 and 527 are 0.46 px apart there.
+  EXPECT_FALSE(show_alike(camera(525, 320), stillpoint::Camera(525, 527, 320, 240, 640, 480)));
+  EXPECT_FALSE(show_alike(camera(525, 320), stillpoint::Camera(525, 525, 320, 240.3, 640, 480)));
 }
 
 TEST(CameraInfo, IsTheSameCameraWhateverTheTime) {

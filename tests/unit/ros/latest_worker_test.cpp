@@ -47,19 +47,23 @@ TEST(LatestWorker, LeavesTheOldestOutWhenItIsLate) {
 
 TEST(LatestWorker, EndsAfterTheJobAtHand) {
   std::promise<void> begun;
-  bool is_done = false;
+  std::vector<int> done;
   {
     LatestWorker<int> worker(
-        [&](int&) {
-          begun.set_value();
-          std::this_thread::sleep_for(std::chrono::milliseconds(20));
-          is_done = true;
+        [&](int& job) {
+          if (done.empty()) {
+            begun.set_value();
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+          }
+          done.push_back(job);
         },
         5);
     worker.submit(1);
     begun.get_future().wait();
+    worker.submit(2);  // both wait while the first is done, and after it nothing is
+    worker.submit(3);
   }
-  EXPECT_TRUE(is_done);
+  EXPECT_EQ(done, std::vector<int>{1});
 }
 
 }  // namespace stillpoint_ros::latest_worker_test

@@ -114,6 +114,10 @@ TEST_F(ReprojectionScoreTest, DepthCountsInItsOwnNoise) {
   EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 2.0f - 1.0f, kRounding) << "depth alone, where no patch could be compared";
   scorer_.options.depth_sigmas = 1.92;  // σ = 0.1: half a nat
   EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 0.5f - 1.0f, kRounding);
+  scorer_.options.depth_sigmas = 0.92;
+  motion_.depth_noise = 2.0;  // σ = 0.1, as the motion has measured
+  EXPECT_NEAR(evidence({0, 0}, kNaN, 2.1f), 0.5f - 1.0f, kRounding);
+  motion_.depth_noise = 1.0;
   scorer_.options.depth_sigmas = 0.0;  // 4 mm are left
   EXPECT_NEAR(evidence({0, 0}, kNaN, 2.004f), 0.5f - 1.0f, 1e-3f);
 }
@@ -134,6 +138,22 @@ TEST_F(ReprojectionScoreTest, ThePosesOwnErrorIsNoEvidence) {
   motion_.covariance.topLeftCorner<3, 3>() = 4e-6 * Matrix3d::Identity();
   motion_.covariance.bottomRightCorner<3, 3>() = 16e-6 * Matrix3d::Identity();
   EXPECT_NEAR(evidence({std::sqrt(6.0f), 0}, 0.0f), 1.0f - 2.5f, 1e-3f);
+  motion_.correlation = 2.0;  // twice as large as that of independent constraints: the variance is 1 + 2 / 2
+  EXPECT_NEAR(evidence({std::sqrt(6.0f), 0}, 0.0f), 1.5f - 2.5f, 1e-3f);
+}
+
+// An equidistant lens at 45 degrees: a pixel of the image is 1 + tan² 45 = 2 on the plane. 4 px are then d² = 4.
+TEST_F(ReprojectionScoreTest, TheLensStretchesTheNoise) {
+  camera_ = Camera(500, 500, 320, 240, 640, 480, EquidistantFisheye{});
+  point_ = {2, 0, 2};
+  EXPECT_NEAR(evidence({500, 4}, 0.0f), 2.0f - 2.5f, 0.02f);
+  camera_ = Camera(500, 500, 320, 240, 640, 480);
+  EXPECT_NEAR(evidence({500, 4}, 0.0f), 8.0f - 2.5f, kRounding);
+}
+
+TEST_F(ReprojectionScoreTest, WhatAStaticPatchScoresIsTakenOff) {
+  scorer_.expected_patch = 1.0;
+  EXPECT_NEAR(evidence({2, 0}, 0.0f), 2.0f - 1.0f, kRounding);
 }
 
 // ---- The motion says how exact its matches are ----
