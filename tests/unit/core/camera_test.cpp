@@ -10,6 +10,7 @@
 #include <string>
 
 #include "stillpoint/core/random.hpp"
+#include "unit/error_of.hpp"
 
 namespace stillpoint::camera_test {
 namespace {
@@ -69,21 +70,11 @@ TEST(PinholeCamera, LensWorksOnPixels) {
   EXPECT_EQ(kCamera.distort({570, 230}), Vector2d(570, 230));
 }
 
-template <class Make>
-std::string error_of(Make&& make) {
-  try {
-    make();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(PinholeCamera, RefusesWhatIsNoCameraAndSaysWhy) {
   const auto camera = [](double fx, double fy, double cx, double cy, int width, int height) {
     return error_of([=] { Camera(fx, fy, cx, cy, width, height); });
   };
-  EXPECT_EQ(camera(500, 400, 320, 230, 640, 480), "");
+  EXPECT_EQ(camera(500, 400, 320, 230, 640, 480), "no error");
   EXPECT_EQ(camera(0, 400, 320, 230, 640, 480), "camera: fx is 0, expected a positive focal length in pixels");
   EXPECT_EQ(camera(500, -1, 320, 230, 640, 480), "camera: fy is -1, expected a positive focal length in pixels");
   EXPECT_EQ(camera(kNaN, 400, 320, 230, 640, 480), "camera: fx is nan, expected a positive focal length in pixels");

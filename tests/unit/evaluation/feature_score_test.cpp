@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "unit/error_of.hpp"
+
 namespace stillpoint {
 namespace {
 
@@ -19,12 +21,9 @@ const ImageView kLabels(kRow.data(), 4, 1, 4, PixelFormat::gray8);
 std::string message(const ImageView& labels, const std::vector<Vector2f>& pixels,
                     const std::vector<std::uint8_t>& keep) {
   FilterScore score;
-  try {
+  return error_of([&] {
     for (int frame = 0; frame < 2; ++frame) score.add_frame(labels, pixels, keep);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
+  });
 }
 
 TEST(FilterScore, HandComputed) {

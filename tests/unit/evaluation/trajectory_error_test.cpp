@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stillpoint/core/random.hpp"
+#include "unit/error_of.hpp"
 
 namespace stillpoint::trajectory_error_test {
 namespace {
@@ -162,13 +163,8 @@ TEST(RelativeTrajectoryError, ShortTrajectoriesGiveNoErrors) {
 }
 
 TEST(RelativeTrajectoryError, DeltaThatMakesNoSenseIsAnError) {
-  const auto message = [](double delta, DeltaUnit unit) -> std::string {
-    try {
-      relative_trajectory_error({}, {}, every(delta, unit, PairSelection::all));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto message = [](double delta, DeltaUnit unit) {
+    return error_of([&] { relative_trajectory_error({}, {}, every(delta, unit, PairSelection::all)); });
   };
   EXPECT_EQ(message(1.5, DeltaUnit::frames),
             "relative trajectory error: delta is 1.500000, expected a whole number of frames");

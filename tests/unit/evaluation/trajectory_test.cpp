@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stillpoint/core/random.hpp"
+#include "unit/error_of.hpp"
 
 namespace stillpoint {
 namespace {
@@ -114,13 +115,8 @@ TEST(Associate, AgreesWithSearchOverAllPairs) {
 }
 
 TEST(Associate, TimeRunningBackwardsOrNotFiniteIsNamed) {
-  const auto message = [](const Trajectory& reference, const Trajectory& estimate) -> std::string {
-    try {
-      associate(reference, estimate);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "no error";
+  const auto message = [](const Trajectory& reference, const Trajectory& estimate) {
+    return error_of([&] { associate(reference, estimate); });
   };
   EXPECT_EQ(
       message(at_times({1.0}), at_times({2.0, 1.5})),

@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "stillpoint/core/random.hpp"
 #include "stillpoint/pipeline/policy_traits.hpp"
+#include "wave_texture.hpp"
 
 namespace stillpoint::lucas_kanade_test {
 namespace {
@@ -23,22 +23,9 @@ static_assert(!is_matcher<Mute>::value);
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A smooth random texture, seen through a camera that moved so that its content moved by (dx, dy) pixels: a sum of
-/// waves, so that every sub-pixel shift is exact.
+/// A texture, seen through a camera that moved so that its content moved by (dx, dy) pixels.
 cv::Mat texture(double dx, double dy, int width = 160, int height = 120, std::uint64_t seed = 1) {
-  Random random(seed);
-  std::vector<std::array<double, 3>> waves(40);
-  for (auto& wave : waves)  // wave lengths of 8 pixels and more in each direction
-    wave = {random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), random.uniform(0.0, 6.28)};
-  cv::Mat image(height, width, CV_8UC1);
-  for (int v = 0; v < height; ++v) {
-    for (int u = 0; u < width; ++u) {
-      double sum = 0;
-      for (const auto& [wu, wv, phase] : waves) sum += std::sin(wu * (u - dx) + wv * (v - dy) + phase);
-      image.at<std::uint8_t>(v, u) = cv::saturate_cast<std::uint8_t>(128 + 14 * sum);
-    }
-  }
-  return image;
+  return test::WaveTexture(seed).shifted(width, height, {dx, dy});
 }
 
 FrameView frame(const cv::Mat& gray, double time_s) { return FrameView(gray, DepthView(), time_s); }

@@ -10,8 +10,6 @@
 #include <vector>
 
 #include "motion_scene.hpp"
-#include "stillpoint/motion/candidates.hpp"
-#include "stillpoint/motion/epipolar/metric_scale.hpp"
 
 namespace stillpoint {
 namespace {
@@ -59,36 +57,6 @@ TEST(Kabsch, DegeneratePointsHaveNoMotion) {
   const std::vector<Vector3d> line = {{1, 1, 1}, {2, 2, 2}, {4, 4, 4}};
   std::vector<Vector3d> nan = {{1, 0, 0}, {0, 1, 0}, {0, 0, std::numeric_limits<double>::quiet_NaN()}};
   for (const auto& points : {std::vector<Vector3d>{}, two, same, line, nan}) EXPECT_FALSE(kabsch(points, points));
-}
-
-TEST(MetricScale, WeightedMedianIgnoresTheWildAndTheNotFinite) {
-  const double kNaN = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ScaleVote> votes = {{0.1, 0.01}, {0.11, 0.01}, {0.12, 0.01}, {9.0, 0.01}, {-50.0, 1.0}, {kNaN, 0.01}};
-  const auto scale = metric_scale(votes, 3);
-  ASSERT_TRUE(scale.has_value());
-  EXPECT_EQ(scale->metres, 0.11);  // half of the weight (401 / 2) is reached with the second hundred
-  EXPECT_FALSE(metric_scale(votes, 6));
-  EXPECT_FALSE(metric_scale({}, 0));
-}
-
-TEST(Candidates, FollowTheRuleOfThePaper) {
-  Random random(1);
-  Matches matches = test::make_matches(Pose::Identity(), {12}, random);
-  Regions regions;
-  regions.of_feature.assign(12, Membership{});
-  matches.state[0] = MatchState::near_edge;
-  regions.of_feature[1].edge_distance_px = 4.0f;
-  regions.of_feature[2].in_dynamic = true;
-  regions.of_feature[3].in_dynamic = regions.of_feature[3].in_fixed = true;
-  Workspace workspace;
-  const auto any = [](std::size_t) { return true; };
-  const auto chosen = [&] {
-    const auto found = select_candidates(matches, regions, {}, workspace, any);
-    return std::vector<std::uint32_t>(found.begin(), found.end());
-  };
-  EXPECT_EQ(chosen(), (std::vector<std::uint32_t>{4, 5, 6, 7, 8, 9, 10, 11}));  // exactly 8 are enough
-  matches.state[11] = MatchState::lost;
-  EXPECT_EQ(chosen(), (std::vector<std::uint32_t>{2, 4, 5, 6, 7, 8, 9, 10}));  // 7 are not; 3 stays out
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <opencv2/features2d.hpp>
 #include <vector>
 
-#include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
@@ -17,48 +16,31 @@
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 #include "stillpoint/synthetic/stereo.hpp"
+#include "unit/pipeline/scene_run.hpp"
 
 namespace stillpoint {
 namespace {
 
-struct Outcome {
-  FilterScore score;
-  int judged = 0, frames = 0;
-};
+using scene_run::Outcome;
+using scene_run::small;
 
 Outcome run(const synthetic::Scene& scene) {
   constexpr double kBaseline_m = 0.11;
-  SyntheticSequence left_sequence(scene), right_sequence(synthetic::right_of(scene, kBaseline_m));
+  SyntheticSequence right_sequence(synthetic::right_of(scene, kBaseline_m));
   StereoDepth stereo(scene.camera, kBaseline_m);
   FrameFilter<> filter(scene.camera);
   filter.depth_noise = stereo.noise();
-  SyntheticFrame left, right;
-  Outcome outcome;
-  for (int f = 0; f < left_sequence.size(); ++f) {
-    left_sequence.render(f, left);
-    right_sequence.render(f, right);
-    cv::Mat depth;
+  SyntheticFrame right;
+  cv::Mat depth;
+  int index = 0;
+  return scene_run::run(scene, [&](const SyntheticFrame& left, std::vector<Vector2f>& pixels) -> const FrameResult& {
+    right_sequence.render(index++, right);
     stereo.compute(as_mat(left.gray.view()), as_mat(right.gray.view()), depth);
     std::vector<cv::KeyPoint> found;
     cv::ORB::create(500)->detect(as_mat(left.gray.view()), found);
-    std::vector<Vector2f> pixels;
     for (const cv::KeyPoint& key_point : found) pixels.emplace_back(key_point.pt.x, key_point.pt.y);
-    const FrameResult& result = filter.filter_frame(FrameView(left.gray.view(), depth, left.timestamp_s), pixels);
-    outcome.score.add_frame(left.labels.view(), pixels, result.keep());
-    if (f > 0) {
-      ++outcome.frames;
-      outcome.judged += judged(result.status());
-    }
-  }
-  return outcome;
-}
-
-synthetic::SceneOptions small(int frames) {
-  synthetic::SceneOptions options;
-  options.frames = frames;
-  options.width = 320;
-  options.height = 240;
-  return options;
+    return filter.filter_frame(FrameView(left.gray.view(), depth, left.timestamp_s), pixels);
+  });
 }
 
 TEST(FilterOnStereo, AStaticRoomStaysWithinTheSetRate) {
