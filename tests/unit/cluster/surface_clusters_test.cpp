@@ -253,6 +253,17 @@ TEST_F(SurfaceClustersTest, FeaturesWithoutDepthAskTheirNeighbours) {
   EXPECT_EQ(labels_[7].log_odds, -1.0f) << "nobody there";
 }
 
+// 25 px of 640 are 50 of 1280: one at 40 px is a neighbour there, and none here.
+TEST_F(SurfaceClustersTest, ItsReachIsThatOfAWideImage) {
+  for (int i = 0; i < 3; ++i) add({140, 100}, 1.0, 8.0f);
+  add({100, 100}, 0.0, kNaN);
+  classify();
+  EXPECT_EQ(labels_[3].log_odds, -1.0f) << "nobody there";
+  matches_.pixel_scale = 2.0f;
+  classify();
+  EXPECT_NEAR(labels_[3].log_odds, 0.7f * 7.0f, kRounding);
+}
+
 TEST_F(SurfaceClustersTest, WhatIsOutsideOrNowhereIsAnsweredToo) {
   add({kNaN, kNaN}, 0.0, kNaN);
   add({1e30f, -1e30f}, 0.0, kNaN);
