@@ -81,7 +81,10 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       mask_prediction.forget();
       if (status != Status::ok) reset();
       frame = with_gray(host_frame, gray_);
-      if (status == Status::ok) status = pixels_.empty() ? without_keypoints(frame) : judge(frame);
+      if (status == Status::ok) {
+        status = judge(frame);
+        if (pixels_.empty()) status = Status::no_keypoints;  // the stages went on by corners of their own
+      }
       history_.push(frame, result_.motion_);
       expectation_.advance(frame.timestamp_s, result_.motion_);
     }
@@ -116,14 +119,15 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
   /// Where the coming frame should be looked at: for a host that extracts features only after it has seen a mask, so
-  /// that its budget goes to static features. Everywhere, where the last frame was not judged, is more than a second
-  /// older or not older at all, or an option is out of its range. A frame that was rejected is none: the one before it
-  /// is the last. It knows no keep-floor.
+  /// that its budget goes to static features. Everywhere, where the last frame was not judged for more than a want of
+  /// keypoints, is more than a second older, not older at all or of another camera, or an option is out of its range. A
+  /// frame that was rejected is none: the one before it is the last. It knows no keep-floor.
   /// @param timestamp_s  of the coming frame
   /// @param margin_px    more is dropped around moving objects; 8 in all measured figures (docs/adopting.md)
   /// @param mask         becomes gray8 of the camera's size: 255 keeps, 0 drops; its memory is reused
   void predicted_keep_mask(double timestamp_s, int margin_px, ImageBuffer& mask) {
-    if (!options_error().empty()) return keep_everywhere(camera.width(), camera.height(), mask);
+    const bool is_new_camera = !history_.empty() && !frame_check.has_size(history_.back(1).view().image(), camera);
+    if (is_new_camera || !options_error().empty()) return keep_everywhere(camera.width(), camera.height(), mask);
     const DepthView depth = history_.empty() ? DepthView() : history_.back(1).view().depth;
     mask_prediction.paint(timestamp_s, depth, camera.width(), camera.height(), margin_px, mask, workspace_);
   }
@@ -153,12 +157,6 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   }
 
  private:
-  /// What a detector saw in such a frame is not of a later one.
-  Status without_keypoints(const FrameView& frame) {
-    prior.regions(frame, observations_.regions);
-    return Status::no_keypoints;
-  }
-
   /// @param frame  its depth is that of the image's time afterwards, if the motion is known
   Status judge(FrameView& frame) {
     const FrameView as_it_came = frame, reference = history_.back(1).view();

@@ -49,7 +49,7 @@ class FrameResult {
   std::size_t keep_floor_kept() const noexcept { return keep_floor_kept_; }
 
   /// The objects that move, or moved and are parked, in the order of their identifiers; empty without a stage for them
-  /// (policies/with_movers.hpp) and where the frame was not judged.
+  /// (policies/with_movers.hpp) and where the frame was not judged, unless all it lacked were keypoints.
   span<const Mover> movers() const noexcept { return movers_.list; }
   /// The mover that keypoint `i` belongs to; null where it belongs to none.
   const Mover* mover(std::size_t i) const noexcept {

@@ -27,7 +27,7 @@ enum class Status : std::uint8_t {
   duplicate_frame,      ///< same time stamp as the last frame; state untouched
   out_of_order,         ///< time runs backwards: everything is forgotten, this frame is the new reference
   time_gap,             ///< too long since the last frame: everything is forgotten, this frame is the new reference
-  no_keypoints,         ///< nothing to judge; the frame becomes the reference
+  no_keypoints,         ///< nothing to judge; the stages go on by corners of their own, where they have any
   no_depth,             ///< no usable depth in this frame or the last, and the ego-motion needs it
   too_few_matches,      ///< fewer matches than the ego-motion needs
   degenerate_geometry,  ///< the matches do not determine a motion (one point, one line, one plane for F)

@@ -39,16 +39,21 @@ class TemporalHoleFilling {
   /// @param current_from_reference  roughly
   /// @param noise  of the depth sensor, `double sigma(double depth_m)`
   /// @return  the current depth image, its holes filled; valid until the next call. One whose size or format is not
-  ///          the last one's comes back as it is. O(pixels).
+  ///          the last one's comes back as it is. A frame without a depth image, as every other one of a camera whose
+  ///          colour is faster, has nothing but holes. O(pixels).
   template <class Camera, class Noise>
-  DepthView fill(const FrameView& reference, const FrameView& current, const Pose& current_from_reference,
+  DepthView fill(const FrameView& reference, const FrameView& as_it_came, const Pose& current_from_reference,
                  const Camera& camera, const Noise& noise) {
-    const ImageView &depth = current.depth.image, &before = reference.depth.image;
+    const ImageView& before = reference.depth.image;
     const bool was_filled = std::exchange(filled_at_s_, kNever_s) == reference.timestamp_s;
-    const double frames = (kLongest_s + kStampNoise_s) / (current.timestamp_s - reference.timestamp_s);
-    if (!is_enabled || depth.empty() || !(frames >= 1.0)) return current.depth;
+    const double frames = (kLongest_s + kStampNoise_s) / (as_it_came.timestamp_s - reference.timestamp_s);
+    if (!is_enabled || before.empty() || !(frames >= 1.0)) return as_it_came.depth;
+    holes_.resize(before.width, before.height, before.format);  // nothing is ever written there: 0 is no depth
+    FrameView current = as_it_came;
+    if (current.depth.empty()) current.depth = DepthView(holes_.view(), reference.depth.factor);
+    const ImageView& depth = current.depth.image;
     if (before.width != depth.width || before.height != depth.height || before.format != depth.format)
-      return current.depth;
+      return as_it_came.depth;
     filled_.resize(depth.width, depth.height, depth.format);  // all memory at once, not in the first frame with holes
     for (ImageBuffer* const age : {&age_, &age_before_}) age->resize(depth.width, depth.height, PixelFormat::gray8);
     if (!was_filled) clear(age_);
@@ -187,7 +192,7 @@ class TemporalHoleFilling {
 
   std::vector<std::uint16_t> lost_;  // by column of a row of tiles
   std::vector<Tile> tiles_;
-  ImageBuffer filled_;
+  ImageBuffer filled_, holes_;
   ImageBuffer age_, age_before_;   // frames since a pixel's depth was measured, by pixel; 0: now
   double filled_at_s_ = kNever_s;  // the frame of `age_`
   int most_age_ = 0;

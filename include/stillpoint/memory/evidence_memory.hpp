@@ -58,6 +58,7 @@ class EvidenceMemory {
     const NeighbourSteps steps(matches, neighbour_px, workspace);
     const double age_s = matches.elapsed_s + matches.unjudged_s;
     dynamic_prior_left_ = static_cast<float>(std::exp(-age_s / options.dynamic_prior_decay_s));
+    const float log_odds_left = static_cast<float>(std::exp(-matches.unjudged_s / options.log_odds_decay_s));
     const RememberedPoints points(pixel_, remembered_, {neighbour_px, feature_px}, workspace);
     for (std::size_t i = 0; i < matches.size(); ++i) {
       const Vector2f here = matches.current.pixel[i];
@@ -69,7 +70,7 @@ class EvidenceMemory {
       if (settled(matches.occupied_views[i], matches.space_static_prior[i])) recalled_[i].dynamic_prior = 0;
       recalled_[i].by_map = evidence_of_map(pixel, depth_m, tolerance_m, neighbour_px);
       remembered.static_prior[i] = std::min(matches.space_static_prior[i], static_prior(recalled_[i].dynamic_prior));
-      remembered.log_odds[i] = recalled_[i].log_odds;
+      remembered.log_odds[i] = log_odds_left * recalled_[i].log_odds;
     }
     for (std::size_t s = 0; s < recalled_of_cell_.size(); ++s) {
       const SurfaceCell& cell = matches.past_observations.surfaces[s];

@@ -4,6 +4,7 @@
 
 // What is expected of the coming motion?   What the host says of it, else that the velocity holds.
 
+#include <limits>
 #include <optional>
 
 #include "stillpoint/core/geometry.hpp"
@@ -28,8 +29,9 @@ class MotionExpectation {
     return moved;
   }
 
-  /// What an IMU or wheels say of the motion to the coming frame; holds for that one.
+  /// What an IMU or wheels say of the motion to the coming frame; holds for that one, in place of what was said before.
   void expect(const Pose& current_from_reference) {
+    said_.reset();
     if (is_plausible_motion(current_from_reference)) said_ = orthonormalized(current_from_reference);
   }
 
@@ -43,7 +45,7 @@ class MotionExpectation {
       prior.current_from_reference = said_;
     else if (last_motion_ && prior.elapsed_s < MeanVelocity::kMostStretch * last_interval_s_)
       prior.current_from_reference = scaled(*last_motion_, prior.elapsed_s / last_interval_s_);
-    else if (last_motion_ && prior.elapsed_s > 0)
+    else if (prior.elapsed_s > 0)
       prior.current_from_reference = mean_velocity_.during(prior.elapsed_s);
     if (prior.elapsed_s > 0) prior.predicted = said_ ? said_ : mean_velocity_.during(prior.elapsed_s);
     // A velocity over a tiny interval, that of two time stamps a rounding apart, is none.
@@ -60,7 +62,11 @@ class MotionExpectation {
     world_from_last_.reset();
     said_.reset();
     last_motion_.reset();
-    if (!motion.usable()) return mean_velocity_.forget();
+    if (!motion.usable()) {
+      if (!(timestamp_s - last_usable_s_ <= kVelocityLasts_s)) mean_velocity_.forget();
+      return;
+    }
+    last_usable_s_ = timestamp_s;
     if (last_interval_s_ > 0) mean_velocity_.add(motion.current_from_reference, last_interval_s_);
     last_motion_ = motion.current_from_reference;
     stationary_ = motion.stationary;
@@ -69,10 +75,13 @@ class MotionExpectation {
   const std::optional<double>& last_timestamp_s() const noexcept { return last_timestamp_s_; }
 
  private:
+  static constexpr double kVelocityLasts_s = 0.5;  // over frames without a motion: a camera that turns goes on to
+
   std::optional<Pose> said_;
   MeanVelocity mean_velocity_;       // of the motions that were found; the host's own poses do not change it
   std::optional<Pose> last_motion_;  // what was done within last_interval_s_
   double last_interval_s_ = 0.0;
+  double last_usable_s_ = -std::numeric_limits<double>::infinity();  // the frame whose motion was known last
   bool stationary_ = true;
   std::optional<double> last_timestamp_s_;
   std::optional<Pose> world_from_last_, world_from_second_last_;  // the host's poses of the last two frames

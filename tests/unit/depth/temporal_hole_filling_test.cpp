@@ -235,10 +235,29 @@ TEST_F(TemporalHoleFillingTest, WithoutAnImageOfTheSameKindDepthComesBackAsItIs)
   EXPECT_TRUE(comes_back(reference)) << "another size";
   filling_.is_enabled = false;
   EXPECT_TRUE(comes_back(before.view()));
-  FrameView blind = now.view();
+}
+
+// Colour at 30 Hz, depth at 15: every other frame has what the last one measured, and the third in a row nothing.
+TEST_F(TemporalHoleFillingTest, AFrameWithoutADepthImageHasNothingButHoles) {
+  for (const PixelFormat format : {PixelFormat::depth16, PixelFormat::depth32f}) {
+    filling_ = TemporalHoleFilling();
+    const Images before(0.0, 2.0, 0, format);
+    const Images now(0.05, 2.0);
+    FrameView blind = now.view();
+    blind.depth = DepthView();
+    const DepthView filled = filling_.fill(before.view(), blind, Pose::Identity(), camera(), KinectNoise());
+    ASSERT_FALSE(filled.empty());
+    EXPECT_EQ(filled.image.format, format);
+    EXPECT_EQ(filled.metres(32, 24), 2.0f);
+    const Images late(0.12, 2.0);
+    FrameView later = late.view();
+    later.depth = DepthView();
+    EXPECT_TRUE(filling_.fill(before.view(), later, Pose::Identity(), camera(), KinectNoise()).empty()) << "too old";
+  }
+  const Images first(0.0, 2.0);
+  FrameView blind = first.view();
   blind.depth = DepthView();
-  filling_.is_enabled = true;
-  EXPECT_TRUE(filling_.fill(before.view(), blind, Pose::Identity(), camera(), KinectNoise()).empty());
+  EXPECT_TRUE(filling_.fill(blind, blind, Pose::Identity(), camera(), KinectNoise()).empty()) << "never any depth";
 }
 
 TEST_F(TemporalHoleFillingTest, ADepthImageOfHalfTheSizeIsFilledToo) {

@@ -129,6 +129,17 @@ TEST_F(EvidenceMemoryTest, WhatTheMapSaidOfAFrameThatWasNotJudgedIsGone) {
   EXPECT_TRUE(labels_[0].keep);
 }
 
+// Half of the log-odds are left after 0.1 s, a quarter after 0.2; while the frames are judged they are those of the
+// last.
+TEST_F(EvidenceMemoryTest, WhatIsRecalledHasAgedWhileNothingWasJudged) {
+  frame(2.0f);
+  recall();
+  EXPECT_NEAR(remembered_.log_odds[0], 2.0f, kRounding);
+  matches_.unjudged_s = 2 * kElapsed_s;
+  recall();
+  EXPECT_NEAR(remembered_.log_odds[0], 0.5f, kRounding);
+}
+
 TEST_F(EvidenceMemoryTest, WhatTheMapSaysOfAKeypointThatIsNoneIsSaidOfNoOther) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::vector<Feature> features = {{Vector2f(nan, nan)}, {Vector2f(60, 50)}};

@@ -294,6 +294,23 @@ TEST(SupportMotion, TheMeasuredNoiseIsHeldWithinLimits) {
   EXPECT_EQ(estimate(Matches()).pixel_sigma, 0.0) << "nobody says";
 }
 
+// Where the image has jumped, most corners are found nowhere, and what is found may be anything. 200 of 1001 are less
+// than a fifth.
+TEST(SupportMotion, MostCornersLostAreADoubt) {
+  const auto doubtful = [](std::size_t corners, std::size_t of_host) {
+    Matches matches = scene_of(kMotion, 5);
+    matches.host_count = of_host;
+    const std::size_t lost = corners - (matches.size() - of_host);
+    matches.resize(matches.size() + lost);  // a feature is lost until it is found
+    const Motion motion = estimate(matches);
+    EXPECT_EQ(motion.status, Status::ok);
+    return motion.doubtful;
+  };
+  EXPECT_FALSE(doubtful(999, 0));
+  EXPECT_TRUE(doubtful(1001, 0));
+  EXPECT_FALSE(doubtful(0, 200)) << "the host's features alone";
+}
+
 // Of 20 matches so many are wrong, each in its own way: up to 40 px and 0.3 to 1.5 m. Six right ones of 20 are a
 // consensus, but the depths of most differ by more than any noise. Where most are right nothing is in doubt, nor where
 // the noise is not measured.

@@ -132,9 +132,9 @@ TEST(MotionExpectation, TheStandIsSaidWithEveryPose) {
     expectation.expect(shift(0.3));
     ASSERT_TRUE(expectation.at(1.1).current_from_reference->isApprox(shift(0.3)));
     EXPECT_EQ(expectation.at(1.1).stationary, stationary);
-    expectation.advance(1.1, motion(false, Status::no_consensus));
-    ASSERT_FALSE(expectation.at(1.2).current_from_reference);
-    EXPECT_EQ(expectation.at(1.2).stationary, stationary);
+    expectation.advance(1.6, motion(false, Status::no_consensus));
+    ASSERT_FALSE(expectation.at(1.7).current_from_reference);
+    EXPECT_EQ(expectation.at(1.7).stationary, stationary);
   }
 }
 
@@ -224,8 +224,36 @@ TEST(MotionExpectation, ThePredictionIsTheMeanVelocitys) {
   expectation.advance(1.2, faster);
   EXPECT_TRUE(expectation.at(1.3).current_from_reference->isApprox(shift(0.3)));
   EXPECT_NEAR(expectation.at(1.3).predicted->translation().x(), 0.1 + 0.2 * (1.0 - std::exp(-1.0)), 1e-9);
-  expectation.advance(1.3, motion(false, Status::no_consensus));
-  EXPECT_FALSE(expectation.at(1.4).predicted);
+  expectation.advance(1.75, motion(false, Status::no_consensus));
+  EXPECT_FALSE(expectation.at(1.85).predicted);
+}
+
+// A turning camera goes on to turn while a frame or two cannot be judged: 1 m/s, for half a second after it was seen.
+TEST(MotionExpectation, TheVelocityOutlastsFramesWithoutAMotion) {
+  for (const Status status : kUnusable) {
+    MotionExpectation expectation;
+    expectation.advance(1.0, Motion());
+    expectation.advance(1.1, motion(false));
+    expectation.advance(1.2, motion(false, status));
+    for (const std::optional<Pose>& pose :
+         {expectation.at(1.3).current_from_reference, expectation.at(1.3).predicted}) {
+      ASSERT_TRUE(pose) << to_string(status);
+      EXPECT_TRUE(pose->isApprox(shift(0.1), 1e-6)) << to_string(status);
+    }
+    expectation.advance(1.59, motion(false, status));
+    EXPECT_TRUE(expectation.at(1.7).current_from_reference) << to_string(status);
+    expectation.advance(1.61, motion(false, status));
+    EXPECT_FALSE(expectation.at(1.7).current_from_reference) << to_string(status);
+  }
+}
+
+// Said of a frame that never came: what is wrong now does not let it stand.
+TEST(MotionExpectation, WhatIsNoneTakesThePlaceOfWhatWasSaid) {
+  MotionExpectation expectation;
+  expectation.expect(shift(0.3));
+  expectation.expect(shift(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_FALSE(expectation.at(1.0).is_told);
+  EXPECT_FALSE(expectation.at(1.0).current_from_reference);
 }
 
 // A host that is led astray shall not take the filter's own velocity along; what an IMU says is better than any mean.

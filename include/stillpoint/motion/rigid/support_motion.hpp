@@ -26,6 +26,7 @@
 #include "stillpoint/motion/rigid/fixed_to_camera.hpp"
 #include "stillpoint/motion/rigid/inertia.hpp"
 #include "stillpoint/motion/rigid/minimal_sample.hpp"
+#include "stillpoint/motion/rigid/slow_motion.hpp"
 #include "stillpoint/motion/rigid/stationary_camera.hpp"
 #include "stillpoint/motion/rigid/support_constraints.hpp"
 #include "stillpoint/motion/rigid/support_problem.hpp"
@@ -77,7 +78,8 @@ class SupportMotion {
     motion.depth_noise = selection.noise.depth_scale;
     problem.set_pixel_sigma(motion.pixel_sigma);
     motion.stationary = stationary_camera.since_last_frame(observations, prior.stationary) &&
-                        has_no_slow_motion(points, matches, camera, workspace);
+                        !has_slow_motion(resting(points, matches, workspace), camera, options.inlier_sigmas,
+                                         least_noise(), most_noise(), workspace);
     const Hypothesis chosen =
         motion.stationary ? at_rest(problem) : with_all_points(selection.hypothesis, selection.cutoffs, problem);
 
@@ -87,7 +89,9 @@ class SupportMotion {
     const Pose current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
     if (!is_plausible_motion(current_from_reference)) return motion;  // what is kilometres away fits any
     motion.status = Status::ok;
-    motion.doubtful = motion.depth_noise >= kMostDepthNoise && explained < kSureSupport;
+    const std::size_t corners = matches.size() - matches.host_count;  // of the matcher's own, found again or not
+    const bool are_few_found = static_cast<double>(points.size()) < kFewFound * static_cast<double>(corners);
+    motion.doubtful = are_few_found || (motion.depth_noise >= kMostDepthNoise && explained < kSureSupport);
     if (selection.is_inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
     set_pose(current_from_reference, chosen.information, prior, motion);
@@ -124,14 +128,14 @@ class SupportMotion {
   }
 
  private:
-  static constexpr double kConfidence = 0.9996;     // of not missing what explains more than the past
-  static constexpr double kSameMotion_px = 1.0;     // hypotheses that move the matches less apart on average are one
-  static constexpr double kSameAsTold_px = 1.5;     // a motion that the host tells is confirmed by a consensus so near
-  static constexpr double kToldPreference = 0.1;    // then it is kept with less support than the past's
-  static constexpr double kLeastSupport = 0.08;     // share of all weight that the motion must explain
+  static constexpr double kConfidence = 0.9996;   // of not missing what explains more than the past
+  static constexpr double kSameMotion_px = 1.0;   // hypotheses that move the matches less apart on average are one
+  static constexpr double kSameAsTold_px = 1.5;   // a motion that the host tells is confirmed by a consensus so near
+  static constexpr double kToldPreference = 0.1;  // then it is kept with less support than the past's
+  static constexpr double kLeastSupport = 0.08;   // share of all weight that the motion must explain
+  static constexpr double kFewFound = 0.2;  // of the matcher's corners: where the image has jumped, most are lost …
   static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
   static constexpr double kMostPriorLoss = 12.6;    // 95 % quantile of χ²₆: what all points at full weight may cost
-  static constexpr double kSlowMotionGain = 60.0;   // squared sigmas by which a motion must beat the identity
   static constexpr double kFinerNoise = 0.7;        // of the past's: with less, both hypotheses are compared
   static constexpr double kLeastPixelSigma = 0.1;   // of the measured noise; the most is `constraints.pixel_sigma`
   static constexpr double kMostDepthNoise = 4.0;    // of the measured depth noise over the assumed; the least is 1
@@ -191,20 +195,13 @@ class SupportMotion {
             camera, options.inlier_sigmas};
   }
 
-  /// Is what is at rest better explained by a motion too small to see in any corner by itself?
-  template <class Camera>
-  bool has_no_slow_motion(span<const PointConstraint> points, const Matches& matches, const Camera& camera,
-                          Workspace& workspace) const {
-    const Workspace::Scope scope(workspace);
-    const span<PointConstraint> resting = workspace.take<PointConstraint>(points.size());
-    std::size_t count = 0;
-    for (const PointConstraint& point : points)
-      if (stationary_camera.at_rest(matches, point.feature)) resting[count++] = point;
-    Pose poses[2] = {Pose::Identity(), Pose::Identity()};
-    SupportProblem<Camera> problem(resting.first(count), {}, {poses, 1}, {poses + 1, 1}, camera, options.inlier_sigmas);
-    problem.calibrate(Pose::Identity(), least_noise(), most_noise(), workspace);
-    const Hypothesis moved = problem.refined(Pose::Identity(), span<const double>(kNearCutoffs).first(1));
-    return problem.squared_residuals_of(moved.support - problem.support(Pose::Identity())) < kSlowMotionGain;
+  span<PointConstraint> resting(span<const PointConstraint> points, const Matches& matches,
+                                Workspace& workspace) const {
+    const span<PointConstraint> found = workspace.take<PointConstraint>(points.size());
+    const auto end = std::copy_if(points.begin(), points.end(), found.begin(), [&](const PointConstraint& point) {
+      return stationary_camera.at_rest(matches, point.feature);
+    });
+    return found.first(static_cast<std::size_t>(end - found.begin()));
   }
 
   /// No motion, as well known as the support allows.

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+
+// DefaultPolicies where single frames lack something: keypoints, depth, or the frames before them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/features2d.hpp>
+#include <utility>
+#include <vector>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/evaluation/feature_score.hpp"
+#include "stillpoint/filter_frame.hpp"
+#include "stillpoint/opencv.hpp"
+#include "stillpoint/policies.hpp"
+#include "stillpoint/synthetic/renderer.hpp"
+#include "stillpoint/synthetic/scenes.hpp"
+#include "unit/pipeline/scene_run.hpp"
+
+namespace stillpoint::gaps_test {
+namespace {
+
+std::vector<Vector2f> corners(const SyntheticFrame& frame) {
+  std::vector<cv::KeyPoint> found;
+  cv::ORB::create(500)->detect(as_mat(frame.gray.view()), found);
+  std::vector<Vector2f> pixels;
+  for (const cv::KeyPoint& keypoint : found) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
+  return pixels;
+}
+
+/// What became of the frames behind a gap.
+struct Outcome {
+  FilterScore score;
+  int frames = 0, refused = 0;
+  int wrong = 0;  ///< judged by a motion whose rotation is 10 mrad off, 5 px, or more
+};
+
+/// A camera that stands and looks round a room without movers: `starts_s` after 1 s it turns at 1.2 rad/s.
+synthetic::Scene turning(double starts_s) {
+  constexpr double kSpeed_rad_s = 1.2, kLeft_rad = -0.48;
+  synthetic::SceneOptions options;
+  options.frames = 120;
+  synthetic::Scene scene = synthetic::pure_rotation(options);
+  std::vector<synthetic::Waypoint> looks;
+  for (const double time_s : {0.0, 1.0, 1.0 + starts_s, 2.0 + starts_s}) {
+    const double turned_s = std::max(0.0, time_s - 1.0 - 0.5 * starts_s);
+    looks.push_back({time_s, {0, -1.42, -0.8}, kLeft_rad + kSpeed_rad_s * turned_s, -0.18, 0});
+  }
+  if (!(starts_s > 0)) looks.erase(looks.begin() + 2);
+  scene.camera_path = {synthetic::Path(looks, starts_s > 0 ? synthetic::Blend::spline : synthetic::Blend::linear), {}};
+  return scene;
+}
+
+/// Frames of the turning camera, those from `gap` on counted.
+/// @param change  what frame `gap` lacks
+template <class Change>
+Outcome run(const synthetic::Scene& scene, const std::vector<int>& frames, int gap, Change&& change) {
+  SyntheticSequence sequence(scene);
+  FrameFilter<> filter(sequence.camera());
+  SyntheticFrame frame;
+  Pose world_from_last = Pose::Identity();
+  Outcome outcome;
+  for (const int f : frames) {
+    sequence.render(f, frame);
+    FrameView view = frame.view();
+    std::vector<Vector2f> pixels = corners(frame);
+    if (f == gap) change(view, pixels);
+    const FrameResult& result = filter.filter_frame(view, pixels);
+    if (f > gap) {
+      const Pose truth = frame.world_from_camera.inverse() * world_from_last;
+      const Matrix3d off = result.motion().current_from_reference.linear() * truth.linear().transpose();
+      ++outcome.frames;
+      if (!judged(result.status()))
+        ++outcome.refused;
+      else
+        outcome.wrong += rotation_angle(off) > 0.01;
+      outcome.score.add_frame(frame.labels.view(), pixels, result.keep());
+    }
+    world_from_last = frame.world_from_camera;
+  }
+  return outcome;
+}
+
+std::vector<int> every(int step, int first, int last) {
+  std::vector<int> frames;
+  for (int f = first; f <= last; f += step) frames.push_back(f);
+  return frames;
+}
+
+// 10 Hz, 0.12 rad or 63 px from frame to frame.
+TEST(Gaps, AFrameThatLacksSomethingDoesNotLoseATurn) {
+  const auto no_keypoints = [](FrameView&, std::vector<Vector2f>& pixels) { pixels.clear(); };
+  const auto no_depth = [](FrameView& view, std::vector<Vector2f>&) { view.depth = DepthView(); };
+  for (const Outcome& outcome :
+       {run(turning(1.0), every(3, 21, 84), 66, no_keypoints), run(turning(1.0), every(3, 21, 84), 66, no_depth)}) {
+    EXPECT_EQ(outcome.frames, 6);
+    EXPECT_EQ(outcome.refused, 0);
+    EXPECT_EQ(outcome.wrong, 0);
+    EXPECT_LT(*outcome.score.false_positive_rate(), 0.02);
+  }
+}
+
+// 30 Hz; the host drops frames where the turn begins, so that 60 to 125 px come at once, which nothing has announced.
+// A frame may be refused for that. Judged by a wrong motion, half of the room is dropped for twenty frames.
+TEST(Gaps, AnImageThatJumpsIsRefusedOrUnderstood) {
+  for (const int dropped : {2, 5}) {
+    std::vector<int> frames = every(1, 24, 30);
+    for (const int f : every(1, 31 + dropped, 43)) frames.push_back(f);
+    const Outcome outcome = run(turning(0.0), frames, 30, [](FrameView&, std::vector<Vector2f>&) {});
+    EXPECT_EQ(outcome.wrong, 0) << dropped;
+    EXPECT_LE(outcome.refused, 1) << dropped;
+    EXPECT_LT(*outcome.score.false_positive_rate(), 0.01) << dropped;
+  }
+}
+
+// Colour at 30 Hz, depth at 15.
+TEST(Gaps, EveryOtherFrameMayHaveNoDepthImage) {
+  const synthetic::Scene scene = synthetic::walking_people(scene_run::small(60));
+  const auto recall = [&scene](bool has_every_depth) {
+    FrameFilter<> filter(scene.camera);
+    int index = 0;
+    const scene_run::Outcome outcome =
+        scene_run::run(scene, [&](const SyntheticFrame& frame, std::vector<Vector2f>& pixels) -> const FrameResult& {
+          pixels = corners(frame);
+          FrameView view = frame.view();
+          if (!has_every_depth && index++ % 2 == 1) view.depth = DepthView();
+          return filter.filter_frame(view, pixels);
+        });
+    EXPECT_EQ(outcome.judged, outcome.frames);
+    EXPECT_LT(*outcome.score.false_positive_rate(), 0.02);
+    return *outcome.score.recall();
+  };
+  EXPECT_GT(recall(false), recall(true) - 0.05);
+}
+
+}  // namespace
+}  // namespace stillpoint::gaps_test
