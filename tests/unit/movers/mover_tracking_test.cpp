@@ -196,7 +196,7 @@ TEST(MoverTracking, APushedBoxIsCarriedWithinThreeDegreesAndFiveCentimetresASeco
 
 /// A person walks by while the camera swings to the right by 0.45 rad in a third of a second.
 struct Swing {
-  /// @param unseen  so many frames of the swing show no feature
+  /// @param unseen  in so many frames of the swing the lens is covered
   explicit Swing(int unseen) {
     synthetic::Scene scene = synthetic::crossing_people(vga(42));
     scene.movers.erase(scene.movers.begin());
@@ -211,20 +211,23 @@ struct Swing {
     SyntheticFrame frame;
     FrameFilter<WithMovers<>> filter(scene.camera);
     const auto orb = cv::ORB::create(800);
+    const cv::Mat covered(scene.camera.height(), scene.camera.width(), CV_8UC1, cv::Scalar(60));
     constexpr int kMiddle = 33;
     const int first = kMiddle - unseen / 2, last = first + unseen - 1;
     for (int f = 0; f <= last + 1; ++f) {
       sequence.render(f, frame);
+      const bool is_covered = f >= first && f <= last;
+      const cv::Mat gray = is_covered ? covered : as_mat(frame.gray.view());
       std::vector<cv::KeyPoint> keypoints;
-      if (f < first || f > last) orb->detect(as_mat(frame.gray.view()), keypoints);
-      const FrameResult& result = filter.filter_frame(frame.view(), keypoints);
+      orb->detect(gray, keypoints);
+      const FrameResult& result = filter.filter_frame({gray, frame.view().depth, frame.timestamp_s}, keypoints);
       if (f != first - 1 && f != last + 1) continue;
       std::vector<Mover>& movers = f < first ? before : after;
       movers.assign(result.movers().begin(), result.movers().end());
     }
   }
 
-  std::vector<Mover> before, after;  ///< the frames without features
+  std::vector<Mover> before, after;  ///< the covered frames
 };
 
 TEST(MoverTracking, AFrameOrTwoThatAreNotJudgedEndNoIdentifier) {

@@ -238,8 +238,8 @@ TEST_F(CallOrder, OfEachFrameIsTheDocumentedOne) {
 TEST_F(CallOrder, AFrameWithoutAMotionEndsAfterThePriorHasObserved) {
   run(0);
   run(1);
-  clip_.frames[2].depth = cv::Mat();
-  EXPECT_EQ(run(2).status(), Status::no_depth);
+  clip_.frames[2].gray.setTo(100);  // the lens is covered
+  EXPECT_EQ(run(2).status(), Status::too_few_matches);
   Calls expected;
   for (const std::string& call : of_frame_) {
     expected.push_back(call);
@@ -247,6 +247,14 @@ TEST_F(CallOrder, AFrameWithoutAMotionEndsAfterThePriorHasObserved) {
   }
   EXPECT_EQ(expected.back(), "prior.observe");
   EXPECT_EQ(log_.calls, expected);
+}
+
+TEST_F(CallOrder, OfAFrameWithoutKeypointsIsThatOfAnyFrame) {
+  run(0);
+  run(1);
+  clip_.frames[2].keypoints.clear();
+  EXPECT_EQ(run(2).status(), Status::no_keypoints);
+  EXPECT_EQ(log_.calls, of_frame_);
 }
 
 TEST_F(CallOrder, OfAResetIsTheDocumentedOne) {
