@@ -214,14 +214,14 @@ struct Swing {
     const cv::Mat covered(scene.camera.height(), scene.camera.width(), CV_8UC1, cv::Scalar(60));
     constexpr int kMiddle = 33;
     const int first = kMiddle - unseen / 2, last = first + unseen - 1;
-    for (int f = 0; f <= last + 1; ++f) {
+    for (int f = 0; f <= last + 2; ++f) {  // the first behind them has nothing to be compared with
       sequence.render(f, frame);
       const bool is_covered = f >= first && f <= last;
       const cv::Mat gray = is_covered ? covered : as_mat(frame.gray.view());
       std::vector<cv::KeyPoint> keypoints;
       orb->detect(gray, keypoints);
       const FrameResult& result = filter.filter_frame({gray, frame.view().depth, frame.timestamp_s}, keypoints);
-      if (f != first - 1 && f != last + 1) continue;
+      if (f != first - 1 && f != last + 2) continue;
       std::vector<Mover>& movers = f < first ? before : after;
       movers.assign(result.movers().begin(), result.movers().end());
     }
