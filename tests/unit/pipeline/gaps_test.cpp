@@ -90,14 +90,16 @@ std::vector<int> every(int step, int first, int last) {
   return frames;
 }
 
-// 10 Hz, 0.12 rad or 63 px from frame to frame.
+// 10 Hz, 0.12 rad or 63 px from frame to frame. Depth is filled by the motion that is expected: where that is a little
+// off, the frame is refused, and the next, which is compared with a frame without depth; the turn is not lost by that.
 TEST(Gaps, AFrameThatLacksSomethingDoesNotLoseATurn) {
-  const auto no_keypoints = [](FrameView&, std::vector<Vector2f>& pixels) { pixels.clear(); };
-  const auto no_depth = [](FrameView& view, std::vector<Vector2f>&) { view.depth = DepthView(); };
-  for (const Outcome& outcome :
-       {run(turning(1.0), every(3, 21, 84), 66, no_keypoints), run(turning(1.0), every(3, 21, 84), 66, no_depth)}) {
+  const auto behind_one = [](auto&& change) { return run(turning(1.0), every(3, 21, 84), 66, change); };
+  const Outcome no_keypoints = behind_one([](FrameView&, std::vector<Vector2f>& pixels) { pixels.clear(); });
+  const Outcome no_depth = behind_one([](FrameView& view, std::vector<Vector2f>&) { view.depth = DepthView(); });
+  EXPECT_EQ(no_keypoints.refused, 0);
+  EXPECT_LE(no_depth.refused, 1);
+  for (const Outcome& outcome : {no_keypoints, no_depth}) {
     EXPECT_EQ(outcome.frames, 6);
-    EXPECT_EQ(outcome.refused, 0);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_LT(*outcome.score.false_positive_rate(), 0.02);
   }
