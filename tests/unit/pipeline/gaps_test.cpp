@@ -23,13 +23,7 @@
 namespace stillpoint::gaps_test {
 namespace {
 
-std::vector<Vector2f> corners(const SyntheticFrame& frame) {
-  std::vector<cv::KeyPoint> found;
-  cv::ORB::create(500)->detect(as_mat(frame.gray.view()), found);
-  std::vector<Vector2f> pixels;
-  for (const cv::KeyPoint& keypoint : found) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
-  return pixels;
-}
+std::vector<Vector2f> corners(const SyntheticFrame& frame) { return scene_run::orb_corners(frame, 500); }
 
 /// What became of the frames behind a gap.
 struct Outcome {

@@ -52,13 +52,7 @@ synthetic::SceneOptions car(int frames, std::uint64_t seed, bool has_full_size) 
   return options;
 }
 
-std::vector<Vector2f> corners(const SyntheticFrame& frame) {
-  std::vector<cv::KeyPoint> found;
-  cv::ORB::create(1000)->detect(as_mat(frame.gray.view()), found);
-  std::vector<Vector2f> pixels;
-  for (const cv::KeyPoint& keypoint : found) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
-  return pixels;
-}
+std::vector<Vector2f> corners(const SyntheticFrame& frame) { return scene_run::orb_corners(frame, 1000); }
 
 /// Features of some runs, by what is there.
 struct Outcome {

@@ -5,10 +5,12 @@
 // A filter over all frames of a synthetic scene.
 
 #include <cstdint>
+#include <opencv2/features2d.hpp>
 #include <vector>
 
 #include "stillpoint/core/frame_result.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
+#include "stillpoint/opencv.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"
 
@@ -22,6 +24,15 @@ inline synthetic::SceneOptions small(int frames, std::uint64_t seed = 1) {
   options.frames = frames;
   options.seed = seed;
   return options;
+}
+
+/// Where ORB finds corners in a frame.
+inline std::vector<Vector2f> orb_corners(const SyntheticFrame& frame, int most) {
+  std::vector<cv::KeyPoint> found;
+  cv::ORB::create(most)->detect(as_mat(frame.gray.view()), found);
+  std::vector<Vector2f> pixels;
+  for (const cv::KeyPoint& keypoint : found) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
+  return pixels;
 }
 
 /// What a filter did to a scene; the first frame, which can't be judged, counts for the score alone.
