@@ -39,16 +39,6 @@ struct Outcome {
   double worst_position_m = 0;  ///< of the chained motions, from the first frame on
 };
 
-std::vector<Vector2f> corners(const SyntheticFrame& frame) {
-  const ImageView gray = frame.gray.view();
-  const cv::Mat image(gray.height, gray.width, CV_8UC1, const_cast<std::uint8_t*>(gray.data), gray.stride_bytes);
-  std::vector<cv::KeyPoint> found;
-  cv::ORB::create(500)->detect(image, found);
-  std::vector<Vector2f> pixels;
-  for (const cv::KeyPoint& keypoint : found) pixels.emplace_back(keypoint.pt.x, keypoint.pt.y);
-  return pixels;
-}
-
 /// @param mount  changes each frame as it is rendered
 Outcome run(const synthetic::Scene& scene, FrameFilter<>& filter, Prior prior = Prior::none,
             void (*mount)(SyntheticFrame&) = nullptr) {
@@ -68,7 +58,7 @@ Outcome run(const synthetic::Scene& scene, FrameFilter<>& filter, Prior prior = 
                        static_cast<float>(box.height)};
       filter.prior.detections.push_back({extent, Mobility::dynamic, 1.0f});
     }
-    const std::vector<Vector2f> pixels = corners(frame);
+    const std::vector<Vector2f> pixels = scene_run::orb_corners(frame, 500);
     filter.predicted_keep_mask(frame.timestamp_s, 0, mask);
     flags_from_mask(mask.view(), pixels, under_no_mask);
     outcome.predicted_mask.add_frame(frame.labels.view(), pixels, under_no_mask);

@@ -6,15 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <opencv2/core.hpp>
-#include <opencv2/features2d.hpp>
 #include <utility>
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/filter_frame.hpp"
-#include "stillpoint/opencv.hpp"
 #include "stillpoint/policies.hpp"
 #include "stillpoint/synthetic/renderer.hpp"
 #include "stillpoint/synthetic/scenes.hpp"

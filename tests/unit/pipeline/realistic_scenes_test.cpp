@@ -13,7 +13,6 @@
 #include <cstdint>
 #include <iterator>
 #include <opencv2/core.hpp>
-#include <opencv2/features2d.hpp>
 #include <optional>
 #include <ostream>
 #include <vector>
