@@ -180,6 +180,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       frame.depth = depth_delay.undo(frame, rough_motion, camera);
       frame.depth = hole_filling.fill(reference, frame, rough_motion, camera, depth_noise);
       matcher.match(reference, frame, matches);
+      frame.depth = fill_along_flow(hole_filling, reference, frame, matches, depth_noise, workspace_);
       lift(frame, depth_lookup, camera, depth_noise, matches.current);
       lift(reference, depth_lookup, camera, depth_noise, matches.reference);
       regions.locate(matches.current.pixel, matches.current.depth_m);

@@ -3,6 +3,7 @@
 #pragma once
 
 // What lies in a hole of the depth image?   What the last frame measured there, if both images show the same.
+// "There" is where a static point was, or where the corners around came from.
 
 #include <algorithm>
 #include <cmath>
@@ -11,26 +12,32 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/pixel_grid.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/depth_shadow.hpp"
+#include "stillpoint/depth/filled_depth.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/depth/tile_motion.hpp"
 
 namespace stillpoint {
 
 /// Fills the holes that come and go from frame to frame, as those of active stereo do. A pixel without a depth takes
-/// over the one that the last frame shows in the place of a static point, for a tenth of a second: moving objects are a
-/// few pixels away by then, and mostly keep their own depth. Where the two images differ, something else has come.
-/// Depth at an edge is not handed on, and shadows of the sensor stay holes: DepthShadow knows what lies there. Where
-/// only a few pixels around one have lost their depth, as they always do at edges, nothing is filled.
-/// docs/design/sweeps.md, "Holes that flicker".
+/// over the one that the last frame shows in the place of a static point, for a tenth of a second. Where the two images
+/// differ, something else has come: moving objects are a few pixels away by then, and features on them take their depth
+/// along once it is known how they moved. Depth at an edge is not handed on, and shadows of the sensor stay holes:
+/// DepthShadow knows what lies there. Where only a few pixels around one have lost their depth, as they always do at
+/// edges, nothing is filled. docs/design/sweeps.md, "Holes that flicker".
 class TemporalHoleFilling {
  public:
   bool is_enabled = true;  ///< false: holes stay holes; no option in files
@@ -54,15 +61,41 @@ class TemporalHoleFilling {
     const ImageView& depth = current.depth.image;
     if (before.width != depth.width || before.height != depth.height || before.format != depth.format)
       return as_it_came.depth;
-    filled_.resize(depth.width, depth.height, depth.format);  // all memory at once, not in the first frame with holes
-    for (ImageBuffer* const age : {&age_, &age_before_}) age->resize(depth.width, depth.height, PixelFormat::gray8);
-    if (!was_filled) clear(age_);
+    filled_.reserve_like(depth);
+    if (!was_filled) filled_.forget_ages();
     most_age_ = static_cast<int>(std::min(frames, 255.0));
     if (depth.format == PixelFormat::depth16)
       find_tiles<std::uint16_t>(depth, before);
     else
       find_tiles<float>(depth, before);
     return tiles_.empty() ? current.depth : fill_tiles(reference, current, current_from_reference, camera, noise);
+  }
+
+  /// After the matches, and after `fill`: a feature in a hole moved as that corner around it along whose flow both
+  /// images are most alike, and takes its depth along, with the pixels around it.
+  /// @param reference  the last frame, its holes filled
+  /// @param current    its depth image is what `fill` returned
+  /// @param matches    where corners were in the reference frame
+  /// @return  that depth image, its holes filled; valid until the next call. O(features · corners around one).
+  template <class Noise>
+  DepthView fill_along_flow(const FrameView& reference, const FrameView& current, const Matches& matches,
+                            const Noise& noise, Workspace& workspace) {
+    if (!(filled_at_s_ == current.timestamp_s)) return current.depth;
+    const Workspace::Scope scope(workspace);
+    const span<const Vector2f> pixel = matches.current.pixel;
+    const auto is_corner = [&](std::size_t i) { return i >= matches.first_support() && matches.matched(i); };
+    const PixelGrid corners(pixel, matches.pixel_scale * kFlowReach_px, workspace, is_corner);
+    const DepthScale to_depth(current.gray, current.depth.image);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (matches.state[i] == MatchState::outside) continue;
+      const Vector2f here = to_depth(pixel[i]);
+      if (!is_in_lost_tile(here) || GuardedDepth().at(current.depth, here, noise) > 0.0) continue;
+      const std::optional<Vector2f> before = place_along_flow(i, corners, matches, reference.gray, current.gray);
+      if (!before || !(GuardedDepth().at(reference.depth, to_depth(*before), noise) > 0.0)) continue;
+      const int reach = rounded(matches.pixel_scale * kFlowBlock_px * to_depth.x);
+      fill_block(here, to_depth(*before), reach, to_depth, reference, current);
+    }
+    return current.depth;
   }
 
   void reset() noexcept { filled_at_s_ = kNever_s; }
@@ -74,16 +107,26 @@ class TemporalHoleFilling {
   static constexpr int kFewestLost = 96;          // pixels of a tile of 256: at edges depth always comes and goes
   static constexpr float kSamePixel_px = 1.0f;    // the depth that is found is that of a point seen so near
   static constexpr int kReach_px = 2;             // the gray values around a pixel, so far to each side …
-  static constexpr int kMostDifference = 18;      // … differ by no more on average
-
-  static void clear(ImageBuffer& age) {
-    const ImageView view = age.view();
-    std::fill_n(age.row<std::uint8_t>(0), view.width * view.height, std::uint8_t{0});
-  }
+  static constexpr int kCompared = (2 * kReach_px + 1) * (2 * kReach_px + 1);
+  static constexpr int kMostDifference = 18;     // … differ by no more on average
+  static constexpr float kFlowReach_px = 48.0f;  // how far away a corner may be whose flow a feature follows: two cells
+  static constexpr float kFlowBlock_px = 12.0f;  // how far around a feature its flow fills: half a cell
 
   struct Tile {
     int left, top;
   };
+
+  std::size_t tiles_in_row() const noexcept {
+    return static_cast<std::size_t>(filled_.view().width / TileMotion::kSide_px);
+  }
+
+  /// @param pixel  in the depth image
+  bool is_in_lost_tile(const Vector2f& pixel) const noexcept {
+    const auto column = static_cast<std::size_t>(rounded(pixel.x()) / TileMotion::kSide_px);
+    const auto row = static_cast<std::size_t>(rounded(pixel.y()) / TileMotion::kSide_px);
+    const std::size_t tile = row * tiles_in_row() + column;
+    return column < tiles_in_row() && tile < is_lost_tile_.size() && is_lost_tile_[tile] != 0;
+  }
 
   template <class Depth>
   static bool is_lost(Depth now, Depth before) noexcept {
@@ -96,8 +139,10 @@ class TemporalHoleFilling {
   void find_tiles(const ImageView& depth, const ImageView& before) {
     constexpr int kSide = TileMotion::kSide_px;
     const auto width = static_cast<std::size_t>(depth.width);
+    const std::size_t count = tiles_in_row() * static_cast<std::size_t>(depth.height / kSide);
     tiles_.clear();
-    tiles_.reserve(width / kSide * static_cast<std::size_t>(depth.height / kSide));
+    tiles_.reserve(count);
+    is_lost_tile_.assign(count, 0);
     for (int top = 0; top + kSide <= depth.height; top += kSide) {
       lost_.assign(width, 0);
       for (int v = top; v < top + kSide; ++v) {
@@ -108,7 +153,10 @@ class TemporalHoleFilling {
       }
       for (int left = 0; left + kSide <= depth.width; left += kSide) {
         const auto first = lost_.begin() + left;
-        if (std::accumulate(first, first + kSide, 0) >= kFewestLost) tiles_.push_back({left, top});
+        if (std::accumulate(first, first + kSide, 0) < kFewestLost) continue;
+        tiles_.push_back({left, top});
+        is_lost_tile_[static_cast<std::size_t>(top / kSide) * tiles_in_row() + static_cast<std::size_t>(left / kSide)] =
+            1;
       }
     }
   }
@@ -117,8 +165,6 @@ class TemporalHoleFilling {
   DepthView fill_tiles(const FrameView& reference, const FrameView& current, const Pose& current_from_reference,
                        const Camera& camera, const Noise& noise) {
     const ImageView& depth = current.depth.image;
-    std::swap(age_, age_before_);
-    clear(age_);
     filled_.assign(depth);
     filled_at_s_ = current.timestamp_s;
     const DepthScale to_depth(current.gray, depth);
@@ -142,16 +188,63 @@ class TemporalHoleFilling {
     const Vector2f before = 2.0f * here - Vector2f(step.u, step.v);
     if (!(GuardedDepth().at(reference.depth, before, noise) > 0.0)) return;
     const int before_u = rounded(before.x()), before_v = rounded(before.y());
-    const int age = age_before_.row<std::uint8_t>(before_v)[before_u];
+    const int age = filled_.age_before(before_u, before_v);
     if (age >= most_age_) return;
     const TileMotion::Place there = motion(before.x(), before.y(), depth_between_m(reference.depth, before));
     const Vector2f off = Vector2f(there.u, there.v) - here;
     if (!(std::max(std::abs(off.x()), std::abs(off.y())) <= kSamePixel_px)) return;
     const Vector2f pixel = to_depth.inverse(here);
-    if (shadow.farther_m(pixel) > 0.0 || !are_alike(reference.gray, to_depth.inverse(before), current.gray, pixel))
+    if (shadow.farther_m(pixel) > 0.0) return;
+    if (difference_of(reference.gray, to_depth.inverse(before), current.gray, pixel) > kMostDifference * kCompared)
       return;
-    set_depth(u, v, there.depth_m, current.depth.factor);
-    age_.row<std::uint8_t>(v)[u] = static_cast<std::uint8_t>(age + 1);
+    filled_.set(u, v, there.depth_m, current.depth.factor, age + 1);
+  }
+
+  /// Where a feature was in the reference image, if it moved as one of the corners around it: as that along whose flow
+  /// the images are most alike. None where nothing there is alike.
+  static std::optional<Vector2f> place_along_flow(std::size_t feature, const PixelGrid& corners, const Matches& matches,
+                                                  const ImageView& reference, const ImageView& current) {
+    const Vector2f pixel = matches.current.pixel[feature];
+    std::optional<Vector2f> place;
+    int least = kMostDifference * kCompared + 1;
+    corners.within(pixel, matches.pixel_scale * kFlowReach_px, [&](std::size_t corner, float) {
+      const Vector2f along = pixel + matches.reference.pixel[corner] - matches.current.pixel[corner];
+      const int difference = difference_of(reference, along, current, pixel);
+      if (difference >= least) return;
+      least = difference;
+      place = along;
+    });
+    return place;
+  }
+
+  /// The holes around `here` take over what lies around `there`, pixel by pixel where the gray values are alike.
+  void fill_block(const Vector2f& here, const Vector2f& there, int reach, const DepthScale& to_depth,
+                  const FrameView& reference, const FrameView& current) {
+    const int u0 = rounded(here.x()), v0 = rounded(here.y());
+    const int before_u = rounded(there.x()) - u0, before_v = rounded(there.y()) - v0;
+    const ImageView depth = filled_.view();
+    const int top = std::max(v0 - reach, std::max(0, -before_v));
+    const int bottom = std::min(v0 + reach + 1, depth.height - std::max(0, before_v));
+    const int left = std::max(u0 - reach, std::max(0, -before_u));
+    const int right = std::min(u0 + reach + 1, depth.width - std::max(0, before_u));
+    for (int v = top; v < bottom; ++v)
+      for (int u = left; u < right; ++u) {
+        if (current.depth.has_depth(u, v) || !reference.depth.has_depth(u + before_u, v + before_v)) continue;
+        const int age = filled_.age_before(u + before_u, v + before_v);
+        if (age >= most_age_ || !is_alike_at(u, v, before_u, before_v, to_depth, reference.gray, current.gray))
+          continue;
+        filled_.set(u, v, reference.depth.metres(u + before_u, v + before_v), current.depth.factor, age + 1);
+      }
+  }
+
+  static bool is_alike_at(int u, int v, int before_u, int before_v, const DepthScale& to_depth,
+                          const ImageView& reference, const ImageView& current) noexcept {
+    const auto gray = [&](const ImageView& image, int x, int y) {
+      const Vector2f pixel = to_depth.inverse(Vector2f(static_cast<float>(x), static_cast<float>(y)));
+      const int column = std::clamp(rounded(pixel.x()), 0, image.width - 1);
+      return int{image.row<std::uint8_t>(std::clamp(rounded(pixel.y()), 0, image.height - 1))[column]};
+    };
+    return std::abs(gray(current, u, v) - gray(reference, u + before_u, v + before_v)) <= kMostDifference;
   }
 
   /// Of one surface, between its pixels: on a floor a half of one is centimetres.
@@ -167,33 +260,28 @@ class TemporalHoleFilling {
     return (1.0f - y) * above_m + y * below_m;
   }
 
-  static bool are_alike(const ImageView& a, const Vector2f& at_a, const ImageView& b, const Vector2f& at_b) noexcept {
+  /// Sum of the absolute differences of `kCompared` gray values; more than any where some are outside an image.
+  static int difference_of(const ImageView& a, const Vector2f& at_a, const ImageView& b,
+                           const Vector2f& at_b) noexcept {
     constexpr float kInside_px = kReach_px + 0.5f;  // rounding may go outwards
-    if (!(a.border_distance_px(at_a.x(), at_a.y()) >= kInside_px)) return false;
-    if (!(b.border_distance_px(at_b.x(), at_b.y()) >= kInside_px)) return false;
+    constexpr int kOutside = std::numeric_limits<int>::max();
+    if (!(a.border_distance_px(at_a.x(), at_a.y()) >= kInside_px)) return kOutside;
+    if (!(b.border_distance_px(at_b.x(), at_b.y()) >= kInside_px)) return kOutside;
     const int left_a = rounded(at_a.x()) - kReach_px, left_b = rounded(at_b.x()) - kReach_px;
-    constexpr int kSide = 2 * kReach_px + 1;
     int sum = 0;
     for (int j = -kReach_px; j <= kReach_px; ++j) {
       const std::uint8_t* const row_a = a.row<std::uint8_t>(rounded(at_a.y()) + j) + left_a;
       const std::uint8_t* const row_b = b.row<std::uint8_t>(rounded(at_b.y()) + j) + left_b;
-      for (int i = 0; i < kSide; ++i) sum += std::abs(int{row_a[i]} - int{row_b[i]});
+      for (int i = 0; i <= 2 * kReach_px; ++i) sum += std::abs(int{row_a[i]} - int{row_b[i]});
     }
-    return sum <= kMostDifference * kSide * kSide;
-  }
-
-  void set_depth(int u, int v, float depth_m, double factor) noexcept {
-    if (filled_.view().format == PixelFormat::depth32f)
-      filled_.row<float>(v)[u] = depth_m;
-    else
-      filled_.row<std::uint16_t>(v)[u] =
-          static_cast<std::uint16_t>(std::clamp(static_cast<double>(depth_m) * factor + 0.5, 1.0, 65535.0));
+    return sum;
   }
 
   std::vector<std::uint16_t> lost_;  // by column of a row of tiles
   std::vector<Tile> tiles_;
-  ImageBuffer filled_, holes_;
-  ImageBuffer age_, age_before_;   // frames since a pixel's depth was measured, by pixel; 0: now
+  std::vector<std::uint8_t> is_lost_tile_;  // of all tiles of the image, row by row
+  FilledDepth filled_;
+  ImageBuffer holes_;              // of a frame without a depth image
   double filled_at_s_ = kNever_s;  // the frame of `age_`
   int most_age_ = 0;
 };

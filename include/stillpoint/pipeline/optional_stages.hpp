@@ -33,6 +33,12 @@ template <class P, class Camera, class Noise> struct aligns<P, Camera, Noise, st
     std::declval<const FrameView&>(), std::declval<const FrameView&>(), std::declval<const Pose&>(),
     std::declval<const Camera&>(), std::declval<const Noise&>()))>> : std::true_type {};
 
+template <class P, class Noise, class = void> struct fills_along_flow : std::false_type {};
+template <class P, class Noise> struct fills_along_flow<P, Noise, std::void_t<
+    decltype(static_cast<DepthView>(std::declval<P&>().fill_along_flow(std::declval<const FrameView&>(),
+    std::declval<const FrameView&>(), std::declval<const Matches&>(), std::declval<const Noise&>(),
+    std::declval<Workspace&>())))>> : std::true_type {};
+
 template <class P, class Camera, class = void> struct contradicts : std::false_type {};
 template <class P, class Camera> struct contradicts<P, Camera, std::void_t<decltype(static_cast<bool>(
     std::declval<const P&>().contradicts(std::declval<const Pose&>(), std::declval<const Camera&>())))>> : std::true_type {};
@@ -73,6 +79,18 @@ Pose align(Matcher& matcher, const FrameView& reference, const FrameView& curren
     return inverted(matcher.align(reference, current, inverted(guess), camera, noise));
   else
     return guess;
+}
+
+/// After matching: a filling of holes may take depth along with what moves.
+/// @return the depth image of `frame`, its holes filled
+template <class HoleFilling, class Noise>
+DepthView fill_along_flow([[maybe_unused]] HoleFilling& hole_filling, [[maybe_unused]] const FrameView& reference,
+                          const FrameView& frame, [[maybe_unused]] const Matches& matches,
+                          [[maybe_unused]] const Noise& noise, [[maybe_unused]] Workspace& workspace) {
+  if constexpr (fills_along_flow<HoleFilling, Noise>::value)
+    return hole_filling.fill_along_flow(reference, frame, matches, noise, workspace);
+  else
+    return frame.depth;
 }
 
 /// Before the motion: a matcher may choose older frames, and say what came within the past seconds.

@@ -8,13 +8,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <limits>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "stillpoint/core/camera.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
+#include "stillpoint/core/matches.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
 
 namespace stillpoint::temporal_hole_filling_test {
@@ -274,6 +280,186 @@ TEST_F(TemporalHoleFillingTest, ADepthImageOfHalfTheSizeIsFilledToo) {
   EXPECT_EQ(filled_m(reference, current, 10, 10), 2.0f);
   now.brighten(19);
   EXPECT_EQ(filled_m(reference, current, 10, 10), 0.0f);
+}
+
+/// What is seen goes 6 px to the right while the camera stands; the wall is 1 cm deeper with each pixel to the right.
+/// So the hole at pixel 30 shows what was at pixel 24, in 1.94 m.
+class AlongFlow : public TemporalHoleFillingTest {
+ protected:
+  static constexpr double kIn24_m = 1.94;
+
+  AlongFlow() {
+    for (int v = 0; v < kHeight; ++v)
+      for (int u = 0; u < kWidth; ++u) before_.set(u, v, 1.7 + 0.01 * u);
+    now_.dig(20, 40);
+  }
+
+  /// @param keypoints  the host's
+  void begin(std::initializer_list<Vector2f> keypoints) {
+    matches_.begin(span<const Vector2f>(keypoints.begin(), keypoints.size()));
+  }
+  void add_corner(const Vector2f& pixel, const Vector2f& step) {
+    matches_.resize(matches_.size() + 1);
+    matches_.current.pixel.back() = pixel;
+    matches_.reference.pixel.back() = pixel - step;
+    matches_.state.back() = MatchState::matched;
+  }
+  /// The depth of pixel (30, 20) after both fillings, metres.
+  float filled_along_m() {
+    const float static_m = filled_m(before_, now_);
+    EXPECT_EQ(static_m, 0.0f) << "in the place of a static point the image differs";
+    FrameView now = now_.view();
+    now.depth = filled_;
+    filled_ = filling_.fill_along_flow(before_.view(), now, matches_, KinectNoise(), workspace_);
+    return filled_.metres(30, 20);
+  }
+
+  Images before_{0.0, 0.0}, now_{0.033, 2.0, 6};
+  Matches matches_;
+  Workspace workspace_;
+  std::vector<std::unique_ptr<ImageBuffer>> kept_;  // depth images of frames of the past
+};
+
+TEST_F(AlongFlow, AFeatureTakesItsDepthAlongAsTheCornersAroundItMove) {
+  begin({{30, 20}});
+  EXPECT_EQ(filled_along_m(), 0.0f) << "no corner, no flow";
+  add_corner({36, 26}, {6, 0});
+  EXPECT_NEAR(filled_along_m(), kIn24_m, 1e-3);
+  EXPECT_EQ(now_.view().depth.metres(30, 20), 0.0f) << "the host's image is not written to";
+  matches_.state.back() = MatchState::lost;
+  EXPECT_EQ(filled_along_m(), 0.0f) << "a corner that was not found has no flow";
+}
+
+TEST_F(AlongFlow, OfAllCornersTheMostAlikeIsFollowed) {
+  for (const bool own_first : {true, false}) {
+    begin({{30, 20}});
+    if (own_first) add_corner({36, 26}, {6, 0});
+    add_corner({33, 23}, {5, 0});  // one column of five differs by 80 / 2: 16 on average, alike but less so
+    if (!own_first) add_corner({36, 26}, {6, 0});
+    EXPECT_NEAR(filled_along_m(), kIn24_m, 1e-3) << own_first;
+  }
+}
+
+TEST_F(AlongFlow, WhatIsAlikeNowhereStaysAHole) {
+  begin({{30, 20}});
+  add_corner({36, 26}, {6, 0});
+  const std::uint8_t alike = now_.gray.row<std::uint8_t>(20)[30];
+  now_.brighten(19);
+  now_.gray.row<std::uint8_t>(20)[30] = alike;  // alone of 25: 24 · 19 / 25 > 18
+  EXPECT_EQ(filled_along_m(), 0.0f);
+}
+
+TEST_F(AlongFlow, AFewPixelsAreNotWorthIt) {
+  for (int v = 17; v <= 23; ++v)
+    for (int u = 50; u <= 56; ++u) now_.set(u, v, 0.0);
+  begin({{53, 20}});
+  add_corner({50, 26}, {6, 0});
+  filled_along_m();
+  EXPECT_EQ(filled_.metres(53, 20), 0.0f);
+}
+
+TEST_F(AlongFlow, ACornerThatIsFarAwaySaysNothing) {
+  begin({{30, 20}});
+  matches_.pixel_scale = 0.25f;  // 12 px
+  add_corner({30, 33}, {6, 0});
+  EXPECT_EQ(filled_along_m(), 0.0f);
+  add_corner({30, 31}, {6, 0});
+  EXPECT_NEAR(filled_along_m(), kIn24_m, 1e-3);
+}
+
+TEST_F(AlongFlow, ThePixelsAroundAFeatureGoWithItWhereTheyAreAlike) {
+  now_.gray.row<std::uint8_t>(22)[32] = static_cast<std::uint8_t>(now_.gray.row<std::uint8_t>(22)[32] + 19);
+  begin({{30, 20}});
+  add_corner({36, 26}, {6, 0});
+  EXPECT_NEAR(filled_along_m(), kIn24_m, 1e-3);
+  EXPECT_NEAR(filled_.metres(30, 32), kIn24_m, 1e-3) << "12 px below";
+  EXPECT_EQ(filled_.metres(30, 33), 0.0f) << "13 px below";
+  EXPECT_EQ(filled_.metres(32, 22), 0.0f) << "another gray value";
+  EXPECT_EQ(filled_.metres(45, 20), 2.0f) << "measured";
+}
+
+// A corner of the matcher's own in a hole is a feature as others are.
+TEST_F(AlongFlow, ACornerTakesItsOwnDepthAlong) {
+  begin({});
+  add_corner({30, 20}, {6, 0});
+  EXPECT_NEAR(filled_along_m(), kIn24_m, 1e-3);
+}
+
+TEST_F(AlongFlow, AtTheBorderNothingComesFromOutside) {
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < 16; ++u) now_.set(u, v, 0.0);
+  now_.gray.row<std::uint8_t>(20)[5] = before_.gray.row<std::uint8_t>(20)[0];
+  begin({{8, 20}, {std::numeric_limits<float>::quiet_NaN(), 20}, {63, 47}});
+  matches_.state[1] = MatchState::outside;
+  add_corner({20, 20}, {6, 0});
+  filled_along_m();
+  EXPECT_NEAR(filled_.metres(8, 20), 1.72f, 1e-3f) << "what was at pixel 2";
+  EXPECT_EQ(filled_.metres(5, 20), 0.0f) << "what was at pixel -1";
+}
+
+// The depth image has half the size of the gray one: a step of 12 px is one of 6 there.
+TEST_F(AlongFlow, PixelsOfAnotherSizeThanTheDepthImage) {
+  const auto widen = [](Images& images) {
+    ImageBuffer wide;
+    wide.resize(2 * kWidth, 2 * kHeight, PixelFormat::gray8);
+    for (int v = 0; v < 2 * kHeight; ++v)
+      for (int u = 0; u < 2 * kWidth; ++u) wide.row<std::uint8_t>(v)[u] = images.gray.row<std::uint8_t>(v / 2)[u / 2];
+    images.gray = std::move(wide);
+  };
+  widen(before_);
+  widen(now_);
+  filled_ = filling_.fill(before_.view(), now_.view(), Pose::Identity(),
+                          Camera(2 * kFocal_px, 2 * kFocal_px, 63.5, 47.5, 2 * kWidth, 2 * kHeight), KinectNoise());
+  EXPECT_EQ(filled_.metres(32, 20), 0.0f);
+  FrameView now = now_.view();
+  now.depth = filled_;
+  begin({{64, 41}});
+  add_corner({73, 53}, {12, 0});
+  filled_ = filling_.fill_along_flow(before_.view(), now, matches_, KinectNoise(), workspace_);
+  EXPECT_NEAR(filled_.metres(32, 20), 1.96f, 1e-3f) << "what was at pixel 26";
+  EXPECT_NEAR(filled_.metres(32, 26), 1.96f, 1e-3f);
+  EXPECT_EQ(filled_.metres(32, 27), 0.0f) << "12 px of the gray image are 6 of the depth's";
+}
+
+// 30 Hz: three frames are within a tenth of a second, however the depth came along.
+TEST_F(AlongFlow, ATenthOfASecondAfterItWasMeasuredADepthIsGone) {
+  Images last = std::move(before_);
+  DepthView last_depth = last.view().depth;
+  for (int frame = 1; frame <= 4; ++frame) {
+    Images next(0.033 * frame, 0.0, 6 * frame);
+    FrameView reference = last.view(), current = next.view();
+    reference.depth = last_depth;
+    current.depth = filling_.fill(reference, current, Pose::Identity(), camera(), KinectNoise());
+    begin({{static_cast<float>(22 + 6 * frame), 20.0f}});
+    add_corner({30, 26}, {6, 0});
+    const DepthView depth = filling_.fill_along_flow(reference, current, matches_, KinectNoise(), workspace_);
+    EXPECT_NEAR(depth.metres(22 + 6 * frame, 20), frame <= 3 ? 1.92f : 0.0f, 1e-3f) << frame;
+    kept_.push_back(std::make_unique<ImageBuffer>());
+    kept_.back()->assign(depth.image);
+    last_depth = DepthView(kept_.back()->view(), kFactor);
+    last = std::move(next);
+  }
+}
+
+TEST_F(AlongFlow, AfterAGapNothingIsTakenFromTheFrameBeforeIt) {
+  begin({{30, 20}});
+  add_corner({36, 26}, {6, 0});
+  filled_along_m();
+  now_.timestamp_s = 1.0;
+  EXPECT_EQ(filled_along_m(), 0.0f);
+  EXPECT_EQ(filled_.image.data, now_.depth.view().data);
+}
+
+TEST_F(AlongFlow, WithoutLostDepthTheImageComesBackAsItIs) {
+  begin({{45, 20}});
+  add_corner({36, 26}, {6, 0});
+  Images whole(0.033, 2.0, 6);
+  EXPECT_EQ(filling_.fill_along_flow(before_.view(), whole.view(), matches_, KinectNoise(), workspace_).image.data,
+            whole.depth.view().data)
+      << "before `fill`";
+  filled_m(before_, whole);
+  EXPECT_EQ(filling_.fill_along_flow(before_.view(), whole.view(), matches_, KinectNoise(), workspace_).image.data,
+            whole.depth.view().data);
 }
 
 }  // namespace
