@@ -94,6 +94,11 @@ struct RecordingHoleFilling : TemporalHoleFilling, mock::Stage {
   auto fill(A&&... a) -> decltype(std::declval<TemporalHoleFilling&>().fill(std::forward<A>(a)...)) {
     return note("hole_filling.fill"), TemporalHoleFilling::fill(std::forward<A>(a)...);
   }
+  template <class... A>
+  auto fill_along_flow(A&&... a)
+      -> decltype(std::declval<TemporalHoleFilling&>().fill_along_flow(std::forward<A>(a)...)) {
+    return note("hole_filling.fill_along_flow"), TemporalHoleFilling::fill_along_flow(std::forward<A>(a)...);
+  }
   void reset() { note("hole_filling.reset"), TemporalHoleFilling::reset(); }
 };
 
