@@ -44,6 +44,7 @@ STILLPOINT_HAS_NAME(expect_dynamic);
 STILLPOINT_HAS_NAME(observe);
 STILLPOINT_HAS_NAME(survey);
 STILLPOINT_HAS_NAME(look_back);
+STILLPOINT_HAS_NAME(fill_along_flow);
 STILLPOINT_HAS_NAME(reset);
 #undef STILLPOINT_HAS_NAME
 
@@ -173,6 +174,10 @@ struct OptionalMembers {
       "stillpoint: Policies::Gate has a member reset, but not void reset(); see docs/extending.md");
   static_assert(resets<typename Policies::Prior>::value || !detail::has_reset<typename Policies::Prior>::value,
       "stillpoint: Policies::Prior has a member reset, but not void reset(); see docs/extending.md");
+  static_assert(fills_along_flow<HoleFillingOf<Policies>, Noise>::value ||
+      !detail::has_fill_along_flow<HoleFillingOf<Policies>>::value,
+      "stillpoint: Policies::HoleFilling has a member fill_along_flow, but not DepthView fill_along_flow(const FrameView& "
+      "reference, const FrameView& current, const Matches&, const DepthNoise&, Workspace&); see docs/extending.md");
   static_assert(refines<typename Policies::EgoMotion, Camera>::value || !detail::has_refine<typename Policies::EgoMotion>::value,
       "stillpoint: Policies::EgoMotion has a member refine, but not void refine(Observations&, const Camera&, const "
       "MotionPrior&, Motion&, Workspace&); see docs/extending.md");
