@@ -35,8 +35,8 @@ namespace stillpoint {
 /// Fills the holes that come and go from frame to frame, as those of active stereo do. A pixel without a depth takes
 /// over the one that the last frame shows in the place of a static point, for a tenth of a second. Where the two images
 /// differ, something else has come: moving objects are a few pixels away by then, and features on them take their depth
-/// along once it is known how they moved. Depth at an edge is not handed on, and shadows of the sensor stay holes:
-/// DepthShadow knows what lies there. Where only a few pixels around one have lost their depth, as they always do at
+/// along once it is known how they moved. Depth at an edge is not handed on, and a static shadow of the sensor stays a
+/// hole: DepthShadow knows what lies there. Where only a few pixels around one have lost their depth, as they always do at
 /// edges, nothing is filled. docs/design/sweeps.md, "Holes that flicker".
 class TemporalHoleFilling {
  public:

@@ -81,7 +81,7 @@ Pose align(Matcher& matcher, const FrameView& reference, const FrameView& curren
     return guess;
 }
 
-/// After matching: a filling of holes may take depth along with what moves.
+/// After matching: a filling of holes may take depth along the flow of the corners.
 /// @return the depth image of `frame`, its holes filled
 template <class HoleFilling, class Noise>
 DepthView fill_along_flow([[maybe_unused]] HoleFilling& hole_filling, [[maybe_unused]] const FrameView& reference,
