@@ -36,8 +36,8 @@ namespace stillpoint {
 /// over the one that the last frame shows in the place of a static point, for a tenth of a second. Where the two images
 /// differ, something else has come: moving objects are a few pixels away by then, and features on them take their depth
 /// along once it is known how they moved. Depth at an edge is not handed on, and a static shadow of the sensor stays a
-/// hole: DepthShadow knows what lies there. Where only a few pixels around one have lost their depth, as they always do at
-/// edges, nothing is filled. docs/design/sweeps.md, "Holes that flicker".
+/// hole: DepthShadow knows what lies there. Where only a few pixels around one have lost their depth, as they always do
+/// at edges, nothing is filled. docs/design/sweeps.md, "Holes that flicker".
 class TemporalHoleFilling {
  public:
   bool is_enabled = true;  ///< false: holes stay holes; no option in files
