@@ -282,7 +282,7 @@ class TemporalHoleFilling {
   std::vector<std::uint8_t> is_lost_tile_;  // of all tiles of the image, row by row
   FilledDepth filled_;
   ImageBuffer holes_;              // of a frame without a depth image
-  double filled_at_s_ = kNever_s;  // the frame of `age_`
+  double filled_at_s_ = kNever_s;  // the frame of `filled_`
   int most_age_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <stillpoint/compiled.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -51,9 +52,8 @@ double mean(const std::vector<double>& values, std::size_t first, std::size_t co
   return sum / static_cast<double>(count);
 }
 
-// Both people stand still when the camera comes round again, elsewhere than at first. What is left is how exactly a
-// loop is measured in images of 320 pixels, about 2 mm, whatever the drift was: 8 mm, and 5.5 since holes are filled on
-// movers.
+// Both people stand still when the camera comes round again, elsewhere than at first. Three quarters of a drift of 8 mm
+// and more; below, as exactly as then: a loop is measured to 2 mm in images of 320 pixels, however small the drift.
 TEST(Circuit, TheLoopTakesTheDrift) {
   const stillpoint::synthetic::Scene scene = circuit(2);
   slam_run::SlamRun run(scene.camera, stillpoint::FrameFilter<stillpoint::CompiledPolicies>(scene.camera));
@@ -69,8 +69,8 @@ TEST(Circuit, TheLoopTakesTheDrift) {
   EXPECT_LE(closed_at, kPerRound + 10u);
   constexpr std::size_t kFrames = 10;
   const double before_m = mean(error_m, closed_at - kFrames, kFrames), after_m = mean(error_m, closed_at + 3, kFrames);
-  EXPECT_LT(after_m, 0.0025);
-  EXPECT_LT(after_m, 0.5 * before_m) << before_m;
+  EXPECT_LT(after_m, std::max(0.002, 0.25 * before_m)) << before_m;
+  EXPECT_LT(after_m, 0.5 * before_m);
   for (std::size_t i = closed_at; i < error_m.size(); ++i) EXPECT_LT(error_m[i], 0.015) << "frame " << i;
 }
 
