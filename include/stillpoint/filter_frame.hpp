@@ -181,6 +181,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       frame.depth = hole_filling.fill(reference, frame, rough_motion, camera, depth_noise);
       matcher.match(reference, frame, matches);
       frame.depth = fill_along_flow(hole_filling, reference, frame, matches, depth_noise, workspace_);
+      frame.depth = undo_along_flow(depth_delay, as_it_came, frame, matches, workspace_);
       lift(frame, depth_lookup, camera, depth_noise, matches.current);
       lift(reference, depth_lookup, camera, depth_noise, matches.reference);
       regions.locate(matches.current.pixel, matches.current.depth_m);
@@ -216,7 +217,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::memory, [&] { memory.update(observations_, motion, evidence, labels, workspace_); });
     timings.run(Stage::match, [&] {
       learn(matcher, observations_, labels);
-      depth_delay.observe(as_it_came, matches.current, labels, motion, camera);
+      depth_delay.observe(as_it_came, matches, labels, motion, camera);
     });
     if constexpr (kHasMovers<Policies>)  // without, not even a look at the clock
       timings.run(Stage::movers,

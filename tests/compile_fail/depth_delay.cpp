@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // It does not say how late depth is.
-// expected: stillpoint: Policies::DepthDelay must offer DepthView undo(const FrameView&, const Pose&, const Camera&), void observe(const FrameView&, const FrameFeatures&, span<const Label>, const Motion&, const Camera&), double frames() const and void reset(); see depth/no_depth_delay.hpp
+// expected: stillpoint: Policies::DepthDelay must offer DepthView undo(const FrameView&, const Pose&, const Camera&), void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const Camera&), double frames() const and void reset(); see depth/no_depth_delay.hpp
 
 #include "sound_policies.hpp"
 
@@ -12,7 +12,7 @@ struct UnsaidDelay {
     return frame.depth;
   }
   template <class Camera>
-  void observe(const stillpoint::FrameView&, const stillpoint::FrameFeatures&,
+  void observe(const stillpoint::FrameView&, const stillpoint::Matches&,
                stillpoint::span<const stillpoint::Label>, const stillpoint::Motion&, const Camera&) {}
   void reset() {}
 };

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
+#include <limits>
 #include <vector>
 
 #include "stillpoint/core/camera.hpp"
@@ -17,6 +17,9 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/workspace.hpp"
+#include "stillpoint/depth/carried_depth.hpp"
+#include "stillpoint/depth/delay_fit.hpp"
 #include "stillpoint/depth/depth_jumps.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/depth_scale.hpp"
@@ -24,38 +27,50 @@
 
 namespace stillpoint {
 
-/// Measures how late depth is, in intervals between frames, and undoes it. Each of nine delays moves the edges of the
-/// depth image along with the camera's motion; at the right delay they lie on edges of the gray image. A constant shift
-/// between the two images is left free, so that poor registration is no delay. At a constant velocity in the image a
-/// delay looks like a shift, and none is found. Edges beside dynamic features are left out, as these move by
-/// themselves; `undo` moves them as if they were static. docs/design/sweeps.md, "Depth of another time".
+/// Measures how late depth is, in intervals between frames, and undoes it: the edges of the depth image are moved along
+/// with what they belong to; at the right delay they lie on edges of the gray image (`DelayFit`). Static ones move with
+/// the camera, those beside dynamic features as these do; the clearer of the two answers counts. People who walk tell
+/// it within a few frames, a camera that moves evenly never. docs/design/sweeps.md, "Depth of another time".
 class DepthDelay {
  public:
   bool is_enabled = true;  ///< false: depth is used as it comes; no option in files
 
-  /// The depth image at the image's time: the frame's own, unless it is known to be of another time.
+  /// The depth image at the image's time, as if all were static: the frame's own, unless it is known to be of another
+  /// time.
   /// @param current_from_reference  roughly, from the last frame to this one
   /// @return  valid until the next call
   template <class Camera>
   DepthView undo(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
     if (!is_enabled || frames_ == 0.0 || frame.depth.empty()) return frame.depth;
-    return moved_(frame, scaled(current_from_reference, frames_), camera);
+    return undone_ = moved_(frame, scaled(current_from_reference, frames_), camera);
+  }
+
+  /// After the matches: corners take the depth around them along, static or not.
+  /// @param as_it_came  the frame that `undo` was given …
+  /// @param current     … and with what it returned, some of its holes filled
+  /// @param matches     where corners were in the last frame
+  /// @return  the depth image at the image's time; valid until the next call
+  DepthView undo_along_flow(const FrameView& as_it_came, const FrameView& current, const Matches& matches,
+                            Workspace& workspace) {
+    if (!is_enabled || frames_ == 0.0 || as_it_came.depth.empty()) return current.depth;
+    return carried_(as_it_came, undone_, current.depth, frames_, matches, workspace);
   }
 
   /// Measures at every second frame.
-  /// @param frame     as it came
-  /// @param features  its features …
-  /// @param labels    … and which of them are kept
-  /// @param motion    from the last frame to this one
+  /// @param frame    as it came
+  /// @param matches  its features …
+  /// @param labels   … and which of them are kept
+  /// @param motion   from the last frame to this one
   template <class Camera>
-  void observe(const FrameView& frame, const FrameFeatures& features, span<const Label> labels, const Motion& motion,
+  void observe(const FrameView& frame, const Matches& matches, span<const Label> labels, const Motion& motion,
                const Camera& camera) {
     if (!is_enabled) return reset();  // what was found is of a sensor that nobody watches any more
     if (!motion.metric || frame.depth.empty() || frame_++ % kLookEvery != 0) return;
-    find_dynamic(features, labels);
-    find_jumps(frame, motion.current_from_reference, camera);
-    if (jumps_.size() < kFewestJumps || !camera_moves(frame.gray.width)) return;
-    add_fits(frame.gray);
+    find_dynamic(matches, labels);
+    find_static_jumps(frame, motion.current_from_reference, camera);
+    if (jumps_.size() >= kFewestJumps && camera_moves(frame.gray.width)) of_static_.add(frame.gray, jumps_);
+    find_moving_jumps(frame);
+    of_moving_.add(frame.gray, jumps_);
     decide();
   }
 
@@ -66,55 +81,66 @@ class DepthDelay {
   void reset() noexcept {
     frames_ = 0.0;
     frame_ = 0;
-    jumps_seen_ = 0.0f;
-    for (auto& of_delay : step_) std::fill(std::begin(of_delay), std::end(of_delay), 0.0f);
+    of_static_.reset();
+    of_moving_.reset();
   }
 
  private:
-  static constexpr std::size_t kLookEvery = 2;        // frame
-  static constexpr int kRows = 30;                    // of the depth image
-  static constexpr std::size_t kFewestJumps = 20;     // in a frame
-  static constexpr std::size_t kMostJumps = 400;      // more are thinned out
-  static constexpr int kDelays = 9;                   // from one frame too new to one too old …
-  static constexpr double kDelayStep = 0.25;          // … of frames
-  static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
-  static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
-  static constexpr float kFading = 0.98f;             // of what was seen, with each look
-  static constexpr float kClearly = 0.15f;            // a delay is better than none by this share …
-  static constexpr float kDeviations = 3.5f;          // … and by this over the square root of the number of jumps …
-  static constexpr float kStill = 0.03f;              // … and what was found holds while it is better by this
-  static constexpr double kLeastDelay = 0.5;          // less is left as it is …
-  static constexpr double kLeastHeld = 0.25;          // … unless more was found before
-  static constexpr float kReachShare = 0.1f;          // of the width: so near to a dynamic feature …
-  static constexpr double kSameObject_m = 0.3;        // … and about as deep, a jump is that object's
-
-  using Fits = float[kDelays][kShifts_x * kShifts_y];
+  static constexpr std::size_t kLookEvery = 2;       // frame
+  static constexpr int kRows = 30;                   // of the depth image; twice as many for what moves
+  static constexpr std::size_t kFewestJumps = 20;    // static ones in a frame
+  static constexpr float kClearly = 0.15f;           // a delay is better than none by this share …
+  static constexpr float kDeviations = 3.5f;         // … and by this over the square root of the number of jumps …
+  static constexpr float kMovingDeviations = 5.0f;   // … of what moves: they are of few objects …
+  static constexpr float kStill = 0.03f;             // … and what was found holds while it is better by this
+  static constexpr double kLeastDelay = 0.5;         // less is left as it is …
+  static constexpr double kLeastHeld = 0.25;         // … unless more was found before
+  static constexpr float kReachShare = 0.1f;         // of the width: so near to a dynamic feature …
+  static constexpr double kSameObject_m = 0.3;       // … and about as deep, a jump is that object's …
+  static constexpr float kMovingReachShare = 0.05f;  // … and moves with it so near …
+  static constexpr float kLeastFlowShare = 1.0f / 213;  // … if that moves by 3 pixels of 640
 
   struct DynamicFeature {
     Vector2f pixel;
+    Vector2f flow;  ///< NaN where it is not matched
     double depth_m;
   };
-  struct Jump {
-    Vector2f pixel;  ///< of the gray image
-    Vector2f flow;   ///< of the camera's motion since the last frame, pixels
-  };
 
-  void find_dynamic(const FrameFeatures& features, span<const Label> labels) {
+  void find_dynamic(const Matches& matches, span<const Label> labels) {
+    const FrameFeatures& now = matches.current;
+    const Vector2f unknown = Vector2f::Constant(std::numeric_limits<float>::quiet_NaN());
     dynamic_.clear();
     dynamic_.reserve(labels.size());
-    for (std::size_t i = 0; i < labels.size(); ++i)
-      if (!labels[i].keep && is_finite(features.pixel[i])) dynamic_.push_back({features.pixel[i], features.depth_m[i]});
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i].keep || !is_finite(now.pixel[i])) continue;
+      const Vector2f flow = matches.matched(i) ? Vector2f(now.pixel[i] - matches.reference.pixel[i]) : unknown;
+      dynamic_.push_back({now.pixel[i], flow, now.depth_m[i]});
+    }
+  }
+
+  static bool is_of(const DynamicFeature& feature, const Vector2f& pixel, double depth_m, float reach_px) {
+    return (feature.pixel - pixel).squaredNorm() < reach_px * reach_px &&
+           !(feature.depth_m > 0.0 && std::abs(feature.depth_m - depth_m) > kSameObject_m);
   }
 
   bool is_dynamic(const Vector2f& pixel, double depth_m, float reach_px) const {
-    return std::any_of(dynamic_.begin(), dynamic_.end(), [&](const DynamicFeature& feature) {
-      return (feature.pixel - pixel).squaredNorm() < reach_px * reach_px &&
-             !(feature.depth_m > 0.0 && std::abs(feature.depth_m - depth_m) > kSameObject_m);
-    });
+    return std::any_of(dynamic_.begin(), dynamic_.end(),
+                       [&](const DynamicFeature& feature) { return is_of(feature, pixel, depth_m, reach_px); });
+  }
+
+  /// Of the nearest dynamic feature whose jump it is; NaN where there is none.
+  Vector2f dynamic_flow(const Vector2f& pixel, double depth_m, float reach_px) const {
+    Vector2f flow = Vector2f::Constant(std::numeric_limits<float>::quiet_NaN());
+    for (const DynamicFeature& feature : dynamic_) {
+      if (!is_finite(feature.flow) || !is_of(feature, pixel, depth_m, reach_px)) continue;
+      reach_px = (feature.pixel - pixel).norm();
+      flow = feature.flow;
+    }
+    return flow;
   }
 
   template <class Camera>
-  void find_jumps(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
+  void find_static_jumps(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
     jumps_.clear();
     jumps_.reserve(static_cast<std::size_t>(2 * kRows * frame.depth.image.width / kDepthJumpReach_px));
     const DepthScale to_depth(frame.gray, frame.depth.image);
@@ -134,69 +160,40 @@ class DepthDelay {
   /// Far enough for a delay to be seen: by 2 pixels in a mean jump, where the image has 640 columns.
   bool camera_moves(int width) const noexcept {
     float sum_px = 0.0f;
-    for (const Jump& jump : jumps_) sum_px += jump.flow.norm();
+    for (const FlowingJump& jump : jumps_) sum_px += jump.flow.norm();
     return sum_px * 320.0f > static_cast<float>(jumps_.size()) * static_cast<float>(width);
   }
 
-  /// Adds the mean gray step at the moved jumps, over that of all delays and shifts.
-  void add_fits(const ImageView& gray) {
-    const int step_px = std::max(gray.width / 320, 1);
-    const std::size_t thinned = 1 + jumps_.size() / kMostJumps;
-    Fits seen;
-    float sum = 0.0f;
-    for (int d = 0; d < kDelays; ++d)
-      for (int s = 0; s < kShifts_x * kShifts_y; ++s) {
-        const int right_px = step_px * (s % kShifts_x - kShifts_x / 2);
-        const int down_px = step_px * (s / kShifts_x - kShifts_y / 2);
-        int steps = 0;
-        for (std::size_t i = 0; i < jumps_.size(); i += thinned) {
-          const Jump& jump = jumps_[i];
-          const Vector2f at = jump.pixel + static_cast<float>(delay(d)) * jump.flow;
-          if (gray.border_distance_px(at.x(), at.y()) >= 0.0f)
-            steps += gray_step(gray, rounded(at.x()) + right_px, rounded(at.y()) + down_px, step_px);
-        }
-        seen[d][s] = static_cast<float>(steps);
-        sum += seen[d][s];
-      }
-    if (!(sum > 0.0f)) return;
-    const auto count = static_cast<float>(jumps_.size());
-    jumps_seen_ = kFading * jumps_seen_ + count;
-    for (int d = 0; d < kDelays; ++d)
-      for (int s = 0; s < kShifts_x * kShifts_y; ++s)
-        step_[d][s] = kFading * step_[d][s] + seen[d][s] * (count * kDelays * kShifts_x * kShifts_y) / sum;
+  void find_moving_jumps(const FrameView& frame) {
+    jumps_.clear();
+    jumps_.reserve(static_cast<std::size_t>(4 * kRows * frame.depth.image.width / kDepthJumpReach_px));
+    const DepthScale to_depth(frame.gray, frame.depth.image);
+    const auto width_px = static_cast<float>(frame.gray.width);
+    for_each_depth_jump(frame.depth, 2 * kRows, [&](int u, int v, float nearer_m) {
+      const Vector2f pixel = to_depth.inverse({depth_jump_at(frame.depth, u, v), static_cast<float>(v)});
+      const Vector2f flow = dynamic_flow(pixel, static_cast<double>(nearer_m), kMovingReachShare * width_px);
+      if (flow.norm() > kLeastFlowShare * width_px) jumps_.push_back({pixel, flow});
+    });
   }
 
   void decide() noexcept {
-    const auto fit = [&](int d) { return *std::max_element(std::begin(step_[d]), std::end(step_[d])); };
-    int best = kNoDelay;
-    for (int d = 0; d < kDelays; ++d)
-      if (fit(d) > fit(best)) best = d;
-    const float gain = fit(best) / fit(kNoDelay) - 1.0f;
-    const bool is_clear =
-        frames_ != 0.0 ? gain > kStill : gain > kClearly && gain * std::sqrt(jumps_seen_) > kDeviations;
-    // Best on the border alone: the images are shifted by more than is searched, and a delay makes up for a part of it.
-    const bool is_inside = fit_inside(best) >= fit(best);
+    const DelayFit::Best of_static = of_static_.best(), of_moving = of_moving_.best();
+    const bool moving_is_clearer = of_moving.deviations > of_static.deviations;
+    const DelayFit::Best& best = moving_is_clearer ? of_moving : of_static;
+    const float deviations = moving_is_clearer ? kMovingDeviations : kDeviations;
+    const bool is_clear = frames_ != 0.0 ? best.gain > kStill : best.gain > kClearly && best.deviations > deviations;
     const double least = frames_ != 0.0 ? kLeastHeld : kLeastDelay;
-    frames_ = is_clear && is_inside && std::abs(delay(best)) >= least ? delay(best) : 0.0;
+    frames_ = is_clear && best.is_inside && std::abs(best.frames) >= least ? best.frames : 0.0;
   }
 
-  /// The greatest of all shifts but the farthest.
-  float fit_inside(int d) const noexcept {
-    float greatest = 0.0f;
-    for (int y = 1; y + 1 < kShifts_y; ++y)
-      for (int x = 1; x + 1 < kShifts_x; ++x) greatest = std::max(greatest, step_[d][y * kShifts_x + x]);
-    return greatest;
-  }
-
-  static double delay(int d) noexcept { return kDelayStep * (d - kNoDelay); }
-
-  Fits step_{};  // gray steps by delay and shift, over their mean, by jumps
+  DelayFit of_static_, of_moving_;
   std::vector<DynamicFeature> dynamic_;
-  std::vector<Jump> jumps_;
+  std::vector<FlowingJump> jumps_;
   std::size_t frame_ = 0;
-  float jumps_seen_ = 0.0f;  // faded as `step_`
   double frames_ = 0.0;
   MovedDepth moved_;
+  DepthView undone_;  // of the current frame, if `frames_` is not 0
+  CarriedDepth carried_;
 };
 
 }  // namespace stillpoint

@@ -39,6 +39,11 @@ template <class P, class Noise> struct fills_along_flow<P, Noise, std::void_t<
     std::declval<const FrameView&>(), std::declval<const Matches&>(), std::declval<const Noise&>(),
     std::declval<Workspace&>())))>> : std::true_type {};
 
+template <class P, class = void> struct undoes_along_flow : std::false_type {};
+template <class P> struct undoes_along_flow<P, std::void_t<
+    decltype(static_cast<DepthView>(std::declval<P&>().undo_along_flow(std::declval<const FrameView&>(),
+    std::declval<const FrameView&>(), std::declval<const Matches&>(), std::declval<Workspace&>())))>> : std::true_type {};
+
 template <class P, class Camera, class = void> struct contradicts : std::false_type {};
 template <class P, class Camera> struct contradicts<P, Camera, std::void_t<decltype(static_cast<bool>(
     std::declval<const P&>().contradicts(std::declval<const Pose&>(), std::declval<const Camera&>())))>> : std::true_type {};
@@ -89,6 +94,19 @@ DepthView fill_along_flow([[maybe_unused]] HoleFilling& hole_filling, [[maybe_un
                           [[maybe_unused]] const Noise& noise, [[maybe_unused]] Workspace& workspace) {
   if constexpr (fills_along_flow<HoleFilling, Noise>::value)
     return hole_filling.fill_along_flow(reference, frame, matches, noise, workspace);
+  else
+    return frame.depth;
+}
+
+/// After matching: a delay of depth may be undone along the flow of the corners.
+/// @param as_it_came  the frame that `undo` was given, `frame` with what it returned, its holes filled
+/// @return the depth image of `frame`, of the image's time
+template <class DepthDelay>
+DepthView undo_along_flow([[maybe_unused]] DepthDelay& depth_delay, [[maybe_unused]] const FrameView& as_it_came,
+                          const FrameView& frame, [[maybe_unused]] const Matches& matches,
+                          [[maybe_unused]] Workspace& workspace) {
+  if constexpr (undoes_along_flow<DepthDelay>::value)
+    return depth_delay.undo_along_flow(as_it_came, frame, matches, workspace);
   else
     return frame.depth;
 }

@@ -45,7 +45,7 @@ template <class P, class Camera, class = void> struct is_depth_delay : std::fals
 template <class P, class Camera> struct is_depth_delay<P, Camera, std::void_t<
     std::enable_if_t<detail::returns<DepthView, decltype(std::declval<P&>().undo(std::declval<const FrameView&>(),
     std::declval<const Pose&>(), std::declval<const Camera&>()))>>,
-    decltype(std::declval<P&>().observe(std::declval<const FrameView&>(), std::declval<const FrameFeatures&>(),
+    decltype(std::declval<P&>().observe(std::declval<const FrameView&>(), std::declval<const Matches&>(),
     std::declval<span<const Label>>(), std::declval<const Motion&>(), std::declval<const Camera&>())),
     std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().frames())>>,
     decltype(std::declval<P&>().reset())>> : std::true_type {};
@@ -185,7 +185,7 @@ struct PolicyContract {
   static_assert(
       is_depth_delay<DepthDelayOf<Policies>, Camera>::value,
       "stillpoint: Policies::DepthDelay must offer DepthView undo(const FrameView&, const Pose&, const "
-      "Camera&), void observe(const FrameView&, const FrameFeatures&, span<const Label>, const Motion&, const "
+      "Camera&), void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const "
       "Camera&), double frames() const and void reset(); see depth/no_depth_delay.hpp");
   static_assert(is_hole_filling<HoleFillingOf<Policies>, Camera, typename Policies::DepthNoise>::value,
                 "stillpoint: Policies::HoleFilling must offer DepthView fill(const FrameView& reference, const "

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: 2026 The stillpoint authors
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// By how much must the edges of the depth image move along their flow to lie on those of the image?
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+
+#include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/image.hpp"
+#include "stillpoint/core/span.hpp"
+#include "stillpoint/depth/depth_jumps.hpp"
+
+namespace stillpoint {
+
+/// A jump of depth, and how the surface before it moves.
+struct FlowingJump {
+  Vector2f pixel = Vector2f::Zero();  ///< of the gray image
+  Vector2f flow = Vector2f::Zero();   ///< since the last frame, pixels
+};
+
+/// Moves jumps of depth by nine delays and sums up the gray steps that they come to lie on. A constant shift between
+/// the two images is left free, so that poor registration is no delay; at a constant flow a delay looks like a shift,
+/// and none is found. What was seen long ago fades.
+class DelayFit {
+ public:
+  struct Best {
+    double frames = 0.0;      ///< the delay, in intervals between frames
+    float gain = 0.0f;        ///< by what share its gray steps are more than those of no delay
+    float deviations = 0.0f;  ///< that, times the square root of the number of jumps seen
+    /// False where the farthest shift is best: the images are shifted by more than is searched, and a delay makes up
+    /// for a part of it.
+    bool is_inside = true;
+  };
+
+  /// Adds the mean gray step at the moved jumps of one frame, over that of all delays and shifts.
+  void add(const ImageView& gray, span<const FlowingJump> jumps) {
+    const int step_px = std::max(gray.width / 320, 1);
+    const std::size_t stride = 1 + jumps.size() / kMostJumps;
+    Steps seen;
+    float sum = 0.0f;
+    for (int d = 0; d < kDelays; ++d)
+      for (int s = 0; s < kShifts_x * kShifts_y; ++s) {
+        const int right_px = step_px * (s % kShifts_x - kShifts_x / 2);
+        const int down_px = step_px * (s / kShifts_x - kShifts_y / 2);
+        int steps = 0;
+        for (std::size_t i = 0; i < jumps.size(); i += stride) {
+          const Vector2f at = jumps[i].pixel + static_cast<float>(delay(d)) * jumps[i].flow;
+          if (gray.border_distance_px(at.x(), at.y()) >= 0.0f)
+            steps += gray_step(gray, rounded(at.x()) + right_px, rounded(at.y()) + down_px, step_px);
+        }
+        seen[d][s] = static_cast<float>(steps);
+        sum += seen[d][s];
+      }
+    if (!(sum > 0.0f)) return;
+    const auto count = static_cast<float>(jumps.size());
+    jumps_ = kFading * jumps_ + count;
+    for (int d = 0; d < kDelays; ++d)
+      for (int s = 0; s < kShifts_x * kShifts_y; ++s)
+        steps_[d][s] = kFading * steps_[d][s] + seen[d][s] * (count * kDelays * kShifts_x * kShifts_y) / sum;
+  }
+
+  Best best() const noexcept {
+    Best best;
+    if (!(jumps_ > 0.0f)) return best;
+    int delayed = kNoDelay;
+    for (int d = 0; d < kDelays; ++d)
+      if (fit(d) > fit(delayed)) delayed = d;
+    best.frames = delay(delayed);
+    best.gain = fit(delayed) / fit(kNoDelay) - 1.0f;
+    best.deviations = best.gain * std::sqrt(jumps_);
+    best.is_inside = fit_inside(delayed) >= fit(delayed);
+    return best;
+  }
+
+  void reset() noexcept { *this = DelayFit(); }
+
+ private:
+  static constexpr std::size_t kMostJumps = 400;      // of a frame; more are thinned out
+  static constexpr int kDelays = 9;                   // from one frame too new to one too old …
+  static constexpr double kDelayStep = 0.25;          // … of frames
+  static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
+  static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
+  static constexpr float kFading = 0.98f;             // of what was seen, with each frame
+
+  using Steps = float[kDelays][kShifts_x * kShifts_y];
+
+  static double delay(int d) noexcept { return kDelayStep * (d - kNoDelay); }
+
+  float fit(int d) const noexcept { return *std::max_element(std::begin(steps_[d]), std::end(steps_[d])); }
+
+  /// The greatest of all shifts but the farthest.
+  float fit_inside(int d) const noexcept {
+    float greatest = 0.0f;
+    for (int y = 1; y + 1 < kShifts_y; ++y)
+      for (int x = 1; x + 1 < kShifts_x; ++x) greatest = std::max(greatest, steps_[d][y * kShifts_x + x]);
+    return greatest;
+  }
+
+  Steps steps_{};       // gray steps by delay and shift, over their mean, by jumps
+  float jumps_ = 0.0f;  // faded as `steps_`
+};
+
+}  // namespace stillpoint
