@@ -38,7 +38,7 @@ class CarriedDepth {
     const Workspace::Scope scope(workspace);
     const DepthScale to_depth(as_it_came.gray, current.image);
     const span<const Corner> corners = find_corners(as_it_came, frames, to_depth, matches, workspace);
-    const span<Vector2f> pixels = workspace.take<Vector2f>(corners.size());
+    const span<Vector2f> pixels = workspace.take<Vector2f>(corners.size(), Vector2f::Zero());
     for (std::size_t c = 0; c < corners.size(); ++c) pixels[c] = corners[c].pixel;
     const float reach_px = matches.pixel_scale * kReach_px;
     const PixelGrid grid(pixels, reach_px, workspace, [](std::size_t) { return true; });

@@ -24,7 +24,7 @@ struct FlowingJump {
 
 /// Moves jumps of depth by nine delays and sums up the gray steps that they come to lie on. A constant shift between
 /// the two images is left free, so that poor registration is no delay; at a constant flow a delay looks like a shift,
-/// and none is found. What was seen long ago fades.
+/// and none is found. What was seen long ago fades; fewer than 20 jumps tell nothing.
 class DelayFit {
  public:
   struct Best {
@@ -65,7 +65,7 @@ class DelayFit {
 
   Best best() const noexcept {
     Best best;
-    if (!(jumps_ > 0.0f)) return best;
+    if (!(jumps_ >= kFewestJumps)) return best;
     int delayed = kNoDelay;
     for (int d = 0; d < kDelays; ++d)
       if (fit(d) > fit(delayed)) delayed = d;
@@ -80,6 +80,7 @@ class DelayFit {
 
  private:
   static constexpr std::size_t kMostJumps = 400;      // of a frame; more are thinned out
+  static constexpr float kFewestJumps = 20.0f;        // of all frames
   static constexpr int kDelays = 9;                   // from one frame too new to one too old …
   static constexpr double kDelayStep = 0.25;          // … of frames
   static constexpr int kNoDelay = kDelays / 2;        // the one in the middle

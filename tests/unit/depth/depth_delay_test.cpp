@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/score.hpp"
+#include "stillpoint/core/workspace.hpp"
 
 namespace stillpoint::depth_delay_test {
 namespace {
@@ -63,8 +66,27 @@ class DepthDelayTest : public testing::Test {
       motion.metric = is_metric_;
       motion.current_from_reference =
           make_pose(Matrix3d::Identity(), {(now_px - offset_px(frame_ - 1)) / kFocal_px, 0.0, 0.0});
-      delay_.observe(view(), features_, labels_, motion, camera());
+      move_features(static_cast<float>(now_px - offset_px(frame_ - 1)));
+      if (is_still_) motion.current_from_reference.setIdentity();
+      delay_.observe(view(), matches_, labels_, motion, camera());
     }
+  }
+
+  void move_features(float flow_px) {
+    for (std::size_t i = 0; i < matches_.size(); ++i)
+      matches_.reference.pixel[i] = matches_.current.pixel[i] - Vector2f(flow_px, 0.0f);
+  }
+
+  /// One in each 8 × 8 pixels.
+  void dynamic_features(double depth_m, MatchState state) {
+    std::vector<Vector2f> pixels;
+    for (int v = 4; v < kHeight; v += 8)
+      for (int u = 4; u < kWidth; u += 8) pixels.emplace_back(static_cast<float>(u), static_cast<float>(v));
+    matches_.begin(pixels);
+    std::fill(matches_.current.depth_m.begin(), matches_.current.depth_m.end(), depth_m);
+    std::fill(matches_.state.begin(), matches_.state.end(), state);
+    labels_.assign(matches_.size(), Label{});
+    for (Label& label : labels_) label.keep = false;
   }
 
   FrameView view() const { return FrameView(gray_.view(), DepthView(depth_.view(), 1000.0), 0.0); }
@@ -83,7 +105,8 @@ class DepthDelayTest : public testing::Test {
   ImageBuffer gray_, depth_;
   int frame_ = 0, shrink_ = 1;
   bool is_metric_ = true;
-  FrameFeatures features_;
+  bool is_still_ = false;  // the posts go by themselves
+  Matches matches_;
   std::vector<Label> labels_;
   DepthDelay delay_;
 };
@@ -171,17 +194,43 @@ TEST_F(DepthDelayTest, AResetForgetsIt) {
   EXPECT_EQ(delay_.frames(), 0.0);
 }
 
-// The posts go by as if the camera moved, but are dynamic: nothing is left that would tell.
+// The posts go by as if the camera moved, but are dynamic, and nobody knows how they moved: nothing is left that would
+// tell.
 TEST_F(DepthDelayTest, WhatMovesByItselfTellsNothing) {
-  for (int v = 4; v < kHeight; v += 8)
-    for (int u = 4; u < kWidth; u += 8) features_.pixel.emplace_back(static_cast<float>(u), static_cast<float>(v));
-  features_.depth_m.assign(features_.pixel.size(), 1.0);
-  labels_.resize(features_.pixel.size());
-  for (Label& label : labels_) label.keep = false;
+  dynamic_features(1.0, MatchState::lost);
   observe(80, 1.0);
   EXPECT_EQ(delay_.frames(), 0.0);
-  features_.depth_m.assign(features_.pixel.size(), 2.0);  // of something behind the posts
+  dynamic_features(2.0, MatchState::lost);  // of something behind the posts
   observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+// The camera stands, the posts swing by themselves.
+TEST_F(DepthDelayTest, UnlessItIsKnownHow) {
+  is_still_ = true;
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0) << "no dynamic feature";
+  dynamic_features(1.0, MatchState::matched);
+  observe(60, 1.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+TEST_F(DepthDelayTest, WhatMovesFindsNoneWhereThereIsNone) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(100, 0.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+  observe(100, 0.0, 3.0);
+  EXPECT_EQ(delay_.frames(), 0.0) << "shifted";
+}
+
+// What is found while somebody walks holds when nothing moves any more.
+TEST_F(DepthDelayTest, WhatIsFoundOnMoversHoldsWhenTheyStand) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(80, 1.0);
+  for (Label& label : labels_) label.keep = true;
+  observe(100, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
   EXPECT_EQ(delay_.frames(), 1.0);
 }
 
@@ -214,10 +263,49 @@ TEST_F(DepthDelayTest, UndoneTheDepthLiesOnItsImage) {
   EXPECT_NE(undone.metres(122, 30), 1.0f);
 }
 
+// A post that stands before a camera that stands, and whose corners went 10 px to the right.
+TEST_F(DepthDelayTest, UndoneAlongTheFlowItLiesOnWhatMoves) {
+  observe(80, 1.0);
+  left_px_.fill(100.0);
+  observe(1, 0.0, 0.0, [](double) { return 0.0; });
+  FrameView frame = view();
+  frame.depth = delay_.undo(view(), Pose::Identity(), camera());
+  EXPECT_EQ(frame.depth.metres(100, 30), 1.0f);
+  matches_.begin({});
+  matches_.resize(2);
+  matches_.current.pixel = {Vector2f(116, 30), Vector2f(80, 30)};
+  matches_.reference.pixel = {Vector2f(106, 30), Vector2f(80, 30)};
+  matches_.state = {MatchState::matched, MatchState::matched};
+  Workspace workspace;
+  const DepthView undone = delay_.undo_along_flow(view(), frame, matches_, workspace);
+  EXPECT_EQ(undone.metres(109, 30), 3.0f);
+  EXPECT_EQ(undone.metres(110, 30), 1.0f);
+  EXPECT_EQ(undone.metres(121, 30), 1.0f);
+  EXPECT_EQ(undone.metres(122, 30), 3.0f);
+}
+
 TEST_F(DepthDelayTest, DepthThatIsNotLateIsHandedOnAsItIs) {
   observe(40, 0.0);
   const DepthView undone = delay_.undo(view(), make_pose(Matrix3d::Identity(), {0.1, 0.0, 0.0}), camera());
   EXPECT_EQ(undone.image.data, depth_.view().data);
+  matches_.resize(1);
+  matches_.state[0] = MatchState::matched;
+  matches_.current.pixel[0] = {50, 30};
+  matches_.reference.pixel[0] = {40, 30};
+  Workspace workspace;
+  EXPECT_EQ(delay_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
+}
+
+// Nor is there any of a frame without a depth image, or of one for which it is switched off.
+TEST_F(DepthDelayTest, WhatCannotBeUndoneIsHandedOnAsItIs) {
+  observe(80, 1.0);
+  Workspace workspace;
+  const FrameView bare(gray_.view(), DepthView(), 0.0);
+  EXPECT_TRUE(delay_.undo(bare, Pose::Identity(), camera()).empty());
+  EXPECT_EQ(delay_.undo_along_flow(bare, view(), matches_, workspace).image.data, depth_.view().data);
+  delay_.is_enabled = false;
+  EXPECT_EQ(delay_.undo(view(), Pose::Identity(), camera()).image.data, depth_.view().data);
+  EXPECT_EQ(delay_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
 }
 
 }  // namespace

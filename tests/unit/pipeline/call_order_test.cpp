@@ -83,6 +83,10 @@ struct RecordingDepthDelay : DepthDelay, mock::Stage {
     return note("depth_delay.undo"), DepthDelay::undo(std::forward<A>(a)...);
   }
   template <class... A>
+  auto undo_along_flow(A&&... a) -> decltype(std::declval<DepthDelay&>().undo_along_flow(std::forward<A>(a)...)) {
+    return note("depth_delay.undo_along_flow"), DepthDelay::undo_along_flow(std::forward<A>(a)...);
+  }
+  template <class... A>
   auto observe(A&&... a) -> decltype(std::declval<DepthDelay&>().observe(std::forward<A>(a)...)) {
     return note("depth_delay.observe"), DepthDelay::observe(std::forward<A>(a)...);
   }

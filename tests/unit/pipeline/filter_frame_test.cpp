@@ -623,7 +623,7 @@ struct ThreeMetres : NoDepthDelay {
     return DepthView(undone_m);
   }
   template <class Camera>
-  void observe(const FrameView& frame, const FrameFeatures&, span<const Label>, const Motion&, const Camera&) {
+  void observe(const FrameView& frame, const Matches&, span<const Label>, const Motion&, const Camera&) {
     observed = frame.depth.image.data;
   }
   double frames() const noexcept { return 1.0; }
