@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Depth of another time on what moves by itself: each surface is where its corners have carried it.
+// Depth of another time, of static and moving objects: each surface is where its corners have carried it.
 
 #include <algorithm>
 #include <array>

@@ -20,8 +20,7 @@ struct NoDepthDelay {
     return frame.depth;
   }
   template <class Camera>
-  void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const Camera&) const noexcept {
-  }
+  void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const Camera&) const noexcept {}
   double frames() const noexcept { return 0.0; }
   void reset() const noexcept {}
 };

@@ -138,6 +138,20 @@ TEST_F(CarriedDepthTest, TheNearestSurfaceHidesTheOthers) {
   EXPECT_EQ(carried().metres(108, 60), 1.0f);
 }
 
+// Six are asked, the nearest: not the eight before them in the list, which are farther away and say that the board
+// stood.
+TEST_F(CarriedDepthTest, TheNearestCornersAreAsked) {
+  for (const float x : {62.0f, 64.0f, 66.0f, 68.0f})
+    for (const float y : {42.0f, 78.0f}) corner(x, y, 0);
+  board_corners();
+  EXPECT_EQ(carried().metres(106, 60), 1.0f);
+  matches_.begin({});
+  for (const float x : {62.0f, 64.0f, 66.0f, 68.0f})
+    for (const float y : {42.0f, 78.0f}) corner(x, y, 0);
+  corner(105, 60, 10);
+  EXPECT_EQ(carried().metres(106, 60), 1.0f);
+}
+
 // A host's features with a place in the last frame count where it brings them, and only there.
 TEST_F(CarriedDepthTest, TheHostsFeaturesCountWhereTheyAreTheCorners) {
   board_corners();

@@ -192,6 +192,17 @@ TEST_F(DepthDelayTest, AResetForgetsIt) {
   observe(80, 1.0);
   delay_.reset();
   EXPECT_EQ(delay_.frames(), 0.0);
+  observe(2, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0) << "nor does the next look bring it back";
+}
+
+TEST_F(DepthDelayTest, AResetForgetsWhatMoversTold) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(80, 1.0);
+  delay_.reset();
+  observe(1, 0.0, 0.0, [](double) { return 0.0; });
+  EXPECT_EQ(delay_.frames(), 0.0);
 }
 
 // The posts go by as if the camera moved, but are dynamic, and nobody knows how they moved: nothing is left that would
@@ -208,9 +219,12 @@ TEST_F(DepthDelayTest, WhatMovesByItselfTellsNothing) {
 // The camera stands, the posts swing by themselves.
 TEST_F(DepthDelayTest, UnlessItIsKnownHow) {
   is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  for (Label& label : labels_) label.keep = true;
   observe(80, 1.0);
   EXPECT_EQ(delay_.frames(), 0.0) << "no dynamic feature";
   dynamic_features(1.0, MatchState::matched);
+  for (std::size_t i = 0; i < matches_.size(); i += 2) matches_.state[i] = MatchState::lost;
   observe(60, 1.0);
   EXPECT_EQ(delay_.frames(), 1.0);
 }
@@ -224,13 +238,26 @@ TEST_F(DepthDelayTest, WhatMovesFindsNoneWhereThereIsNone) {
   EXPECT_EQ(delay_.frames(), 0.0) << "shifted";
 }
 
-// What is found while somebody walks holds when nothing moves any more.
+// Within 16 px, 5 % of the width.
+TEST_F(DepthDelayTest, AnEdgeMovesWithFeaturesThatAreNear) {
+  is_still_ = true;
+  left_px_.fill(150.0);  // and 19 px to either side
+  dynamic_features(1.0, MatchState::matched);
+  for (std::size_t i = 0; i < matches_.size(); ++i) labels_[i].keep = matches_.current.pixel[i].x() > 110.0f;
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 0.0);
+  for (std::size_t i = 0; i < matches_.size(); ++i) labels_[i].keep = matches_.current.pixel[i].x() < 110.0f;
+  observe(80, 1.0);
+  EXPECT_EQ(delay_.frames(), 1.0);
+}
+
+// What is found while somebody walks holds when they stand, while the memory still calls them dynamic: at no flow all
+// delays are alike.
 TEST_F(DepthDelayTest, WhatIsFoundOnMoversHoldsWhenTheyStand) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   observe(80, 1.0);
-  for (Label& label : labels_) label.keep = true;
-  observe(100, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
+  observe(400, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
   EXPECT_EQ(delay_.frames(), 1.0);
 }
 
