@@ -33,7 +33,7 @@ void CompiledFilter<HostAbi>::destroy(Engine* engine) noexcept {
 
 template <class HostAbi>
 auto CompiledFilter<HostAbi>::stages(Engine& engine) -> Stages {
-  return {engine.camera,       engine.frame_check, engine.depth_noise, engine.depth_lookup, engine.depth_delay,
+  return {engine.camera,       engine.frame_check, engine.depth_noise, engine.depth_lookup, engine.depth_registration,
           engine.hole_filling, engine.prior,       engine.matcher,     engine.ego_motion,   engine.scorer,
           engine.gate,         engine.classifier,  engine.memory,      engine.keep_floor,   engine.mask_prediction};
 }

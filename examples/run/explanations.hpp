@@ -52,6 +52,7 @@ constexpr const char* explained(stillpoint::Warning warning) noexcept {
     case Warning::depth_unsynchronised: return "Depth images are older or newer than their images: pair them by time.";
     case Warning::depth_shape_differs: return "The depth image has another shape than the image: is it aligned?";
     case Warning::principal_point_aside: return "The principal point is far from the middle of the image.";
+    case Warning::depth_shifted: return "Depth images lie some pixels beside their images: are both calibrated?";
     case Warning::nothing_fits: return "Hardly a frame can be judged: are depth and image aligned?";
   }
   return "";

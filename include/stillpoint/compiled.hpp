@@ -25,7 +25,7 @@
 namespace stillpoint {
 
 struct GuardedDepth;
-class DepthDelay;
+class DepthRegistration;
 class TemporalHoleFilling;
 class PropagatedPrior;
 struct PatchMatcher;
@@ -55,7 +55,7 @@ struct CompiledFilter {
     FrameCheck& frame_check;
     AnyDepthNoise& depth_noise;
     GuardedDepth& depth_lookup;
-    DepthDelay& depth_delay;
+    DepthRegistration& depth_registration;
     TemporalHoleFilling& hole_filling;
     PropagatedPrior& prior;
     PatchMatcher& matcher;
@@ -110,21 +110,21 @@ class FrameFilter<CompiledPolicies> {
   explicit FrameFilter(const Camera& camera_model) : FrameFilter(Compiled::create(camera_model, false)) {}
   FrameFilter(FrameFilter&&) noexcept = default;
 
-  Camera& camera;                     ///< intrinsics and distortion; one of another size begins anew
-  FrameCheck& frame_check;            ///< which frames can be judged at all?
-  AnyDepthNoise& depth_noise;         ///< how wrong is a depth?
-  GuardedDepth& depth_lookup;         ///< which depth belongs to a pixel?
-  DepthDelay& depth_delay;            ///< is the depth of the image's time?
-  TemporalHoleFilling& hole_filling;  ///< what lies where the depth image has a hole?
-  PropagatedPrior& prior;             ///< where may something move?
-  PatchMatcher& matcher;              ///< where was each feature before?
-  SupportMotion& ego_motion;          ///< how did the camera move?
-  ReprojectionScore& scorer;          ///< how badly does each feature disagree with that motion?
-  TailGate& gate;                     ///< which disagreement is more than noise?
-  SurfaceClusters& classifier;        ///< which features move together?
-  EvidenceMemory& memory;             ///< what did we know of this feature?
-  KeepFloor& keep_floor;              ///< how much must be left?
-  MaskPrediction& mask_prediction;    ///< where will the coming frame show moving objects?
+  Camera& camera;                         ///< intrinsics and distortion; one of another size begins anew
+  FrameCheck& frame_check;                ///< which frames can be judged at all?
+  AnyDepthNoise& depth_noise;             ///< how wrong is a depth?
+  GuardedDepth& depth_lookup;             ///< which depth belongs to a pixel?
+  DepthRegistration& depth_registration;  ///< does depth lie on the image?
+  TemporalHoleFilling& hole_filling;      ///< what lies where the depth image has a hole?
+  PropagatedPrior& prior;                 ///< where may something move?
+  PatchMatcher& matcher;                  ///< where was each feature before?
+  SupportMotion& ego_motion;              ///< how did the camera move?
+  ReprojectionScore& scorer;              ///< how badly does each feature disagree with that motion?
+  TailGate& gate;                         ///< which disagreement is more than noise?
+  SurfaceClusters& classifier;            ///< which features move together?
+  EvidenceMemory& memory;                 ///< what did we know of this feature?
+  KeepFloor& keep_floor;                  ///< how much must be left?
+  MaskPrediction& mask_prediction;        ///< where will the coming frame show moving objects?
 
   template <class Keypoints>
   const FrameResult& filter_frame(const FrameView& frame, const Keypoints& keypoints) {
@@ -149,7 +149,7 @@ class FrameFilter<CompiledPolicies> {
         frame_check(stages.frame_check),
         depth_noise(stages.depth_noise),
         depth_lookup(stages.depth_lookup),
-        depth_delay(stages.depth_delay),
+        depth_registration(stages.depth_registration),
         hole_filling(stages.hole_filling),
         prior(stages.prior),
         matcher(stages.matcher),

@@ -16,7 +16,7 @@
 #include "stillpoint/core/options.hpp"
 #include "stillpoint/core/pixel_scale.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
-#include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_depth_registration.hpp"
 #include "stillpoint/depth/no_hole_filling.hpp"
 #include "stillpoint/fwd.hpp"
 #include "stillpoint/movers/no_movers.hpp"
@@ -47,22 +47,22 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
 
   explicit FrameFilter(Camera camera_model) : camera(std::move(camera_model)), history_(Policies::kHistoryLength) {}
 
-  Camera camera;                                ///< intrinsics and distortion; one of another size begins anew
-  FrameCheck frame_check;                       ///< which frames can be judged at all?
-  DepthNoise depth_noise;                       ///< how wrong is a depth?
-  typename Policies::DepthLookup depth_lookup;  ///< which depth belongs to a pixel?
-  DepthDelayOf<Policies> depth_delay;           ///< is the depth of the image's time?
-  HoleFillingOf<Policies> hole_filling;         ///< what lies where the depth image has a hole?
-  Prior prior;                                  ///< where may something move?
-  Matcher matcher;                              ///< where was each feature before?
-  EgoMotion ego_motion;                         ///< how did the camera move?
-  typename Policies::Scorer scorer;             ///< how badly does each feature disagree with that motion?
-  typename Policies::Gate gate;                 ///< which disagreement is more than noise?
-  typename Policies::Classifier classifier;     ///< which features move together?
-  Memory memory;                                ///< what did we know of this feature?
-  typename Policies::KeepFloor keep_floor;      ///< how much must be left?
-  MoversOf<Policies> movers;                    ///< which objects move, and how?
-  MaskPrediction mask_prediction;               ///< where will the coming frame show moving objects?
+  Camera camera;                                     ///< intrinsics and distortion; one of another size begins anew
+  FrameCheck frame_check;                            ///< which frames can be judged at all?
+  DepthNoise depth_noise;                            ///< how wrong is a depth?
+  typename Policies::DepthLookup depth_lookup;       ///< which depth belongs to a pixel?
+  DepthRegistrationOf<Policies> depth_registration;  ///< does depth lie on the image?
+  HoleFillingOf<Policies> hole_filling;              ///< what lies where the depth image has a hole?
+  Prior prior;                                       ///< where may something move?
+  Matcher matcher;                                   ///< where was each feature before?
+  EgoMotion ego_motion;                              ///< how did the camera move?
+  typename Policies::Scorer scorer;                  ///< how badly does each feature disagree with that motion?
+  typename Policies::Gate gate;                      ///< which disagreement is more than noise?
+  typename Policies::Classifier classifier;          ///< which features move together?
+  Memory memory;                                     ///< what did we know of this feature?
+  typename Policies::KeepFloor keep_floor;           ///< how much must be left?
+  MoversOf<Policies> movers;                         ///< which objects move, and how?
+  MaskPrediction mask_prediction;                    ///< where will the coming frame show moving objects?
 
   /// Judges the keypoints of a frame. Call it before the tracker, with frames in the order of time.
   /// @param host_frame  its views need not outlive the call
@@ -91,7 +91,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     if (!judged(status)) result_.motion_.status = status;
     use_check_.observe(status, frame, camera, pixels_, result_.depth_m_, result_.motion_);
     result_.warnings_.add(use_check_.warnings());
-    if (depth_delay.frames() != 0.0) result_.warnings_.add(Warning::depth_unsynchronised);
+    result_.warnings_.add(depth_registration.warnings());
     result_.hint_ = UseCheck::hint(status, result_.warnings_);
     return result_;
   }
@@ -144,7 +144,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
   /// relocalisation or a new map of the host: the images go on. Settings stay.
   void reset() {
     history_.clear();
-    depth_delay.reset();
+    depth_registration.reset();
     hole_filling.reset();
     reset_policy(prior);
     matcher.reset();
@@ -177,11 +177,11 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::prior, [&] { prior.regions(frame, regions); });
     timings.run(Stage::match, [&] {
       rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
-      frame.depth = depth_delay.undo(frame, rough_motion, camera);
+      frame.depth = depth_registration.undo(frame, rough_motion, camera);
       frame.depth = hole_filling.fill(reference, frame, rough_motion, camera, depth_noise);
       matcher.match(reference, frame, matches);
       frame.depth = fill_along_flow(hole_filling, reference, frame, matches, depth_noise, workspace_);
-      frame.depth = undo_along_flow(depth_delay, as_it_came, frame, matches, workspace_);
+      frame.depth = undo_along_flow(depth_registration, as_it_came, frame, matches, workspace_);
       lift(frame, depth_lookup, camera, depth_noise, matches.current);
       lift(reference, depth_lookup, camera, depth_noise, matches.reference);
       regions.locate(matches.current.pixel, matches.current.depth_m);
@@ -217,7 +217,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::memory, [&] { memory.update(observations_, motion, evidence, labels, workspace_); });
     timings.run(Stage::match, [&] {
       learn(matcher, observations_, labels);
-      depth_delay.observe(as_it_came, matches, labels, motion, camera);
+      depth_registration.observe(as_it_came, matches, labels, motion, camera);
     });
     if constexpr (kHasMovers<Policies>)  // without, not even a look at the clock
       timings.run(Stage::movers,
@@ -251,7 +251,7 @@ void each_option(FrameFilter<Policies>& filter, Visit& visit) {
   visit("frame_check", filter.frame_check);
   visit("depth_noise", filter.depth_noise);
   visit("depth_lookup", filter.depth_lookup);
-  visit("depth_delay", filter.depth_delay);
+  visit("depth_registration", filter.depth_registration);
   visit("hole_filling", filter.hole_filling);
   visit("prior", filter.prior);
   visit("matcher", filter.matcher);

@@ -53,6 +53,7 @@ class FrameWarning(enum.IntEnum):
     depth_unsynchronised = 11
     depth_shape_differs = 12
     principal_point_aside = 13
+    depth_shifted = 14
 
 class Verdict(enum.IntEnum):
     """What a feature is, as far as can be told."""

@@ -32,8 +32,8 @@ class FrameResult {
   const Label& label(std::size_t i) const noexcept { return labels_[i]; }
   [[deprecated("label(i); gone in 0.4")]] const Label& verdict(std::size_t i) const noexcept { return labels_[i]; }
   const FeatureScore& score(std::size_t i) const noexcept { return scores_[i]; }
-  /// That the filter used, metres, 0 where there is none: moved where depth is late (DepthDelay), carried over from the
-  /// last frames where the depth image has a hole (HoleFilling).
+  /// That the filter used, metres, 0 where there is none: moved where depth is late (DepthRegistration), carried over
+  /// from the last frames where the depth image has a hole (HoleFilling).
   double depth_m(std::size_t i) const noexcept { return depth_m_[i]; }
 
   Status status() const noexcept { return status_; }

@@ -12,7 +12,7 @@
 namespace stillpoint {
 
 /// No warning changes a verdict. The first three tell what the filter did, the others that it may be used wrongly: they
-/// come when many frames look so (`UseCheck`, `DepthDelay`), and `FrameResult::hint` says what to look at.
+/// come when many frames look so (`UseCheck`, `DepthRegistration`), and `FrameResult::hint` says what to look at.
 enum class Warning : std::uint8_t {
   rotation_only,             ///< the camera turned without moving (or stood still); motion has no direction
   consensus_inverted,        ///< another rigid motion explains more; the one that agrees with the past was taken
@@ -28,8 +28,9 @@ enum class Warning : std::uint8_t {
   depth_unsynchronised,      ///< depth is older or newer than its image; the filter uses moved depth
   depth_shape_differs,       ///< its width by its height is not the image's
   principal_point_aside,     ///< it is far from the image's middle, as that of another resolution is
+  depth_shifted,             ///< depth lies some pixels beside its image; the filter uses moved depth
 };
-constexpr std::size_t kWarningCount = 14;
+constexpr std::size_t kWarningCount = 15;
 
 /// The warning as it is written in files.
 constexpr const char* to_string(Warning warning) noexcept {
@@ -48,6 +49,7 @@ constexpr const char* to_string(Warning warning) noexcept {
     case Warning::depth_unsynchronised: return "depth_unsynchronised";
     case Warning::depth_shape_differs: return "depth_shape_differs";
     case Warning::principal_point_aside: return "principal_point_aside";
+    case Warning::depth_shifted: return "depth_shifted";
   }
   return "?";
 }

@@ -101,12 +101,12 @@ DepthView fill_along_flow([[maybe_unused]] HoleFilling& hole_filling, [[maybe_un
 /// After matching: a delay of depth may be undone along the flow of the corners.
 /// @param as_it_came  the frame that `undo` was given, `frame` with what it returned, its holes filled
 /// @return the depth image of `frame`, of the image's time
-template <class DepthDelay>
-DepthView undo_along_flow([[maybe_unused]] DepthDelay& depth_delay, [[maybe_unused]] const FrameView& as_it_came,
-                          const FrameView& frame, [[maybe_unused]] const Matches& matches,
-                          [[maybe_unused]] Workspace& workspace) {
-  if constexpr (undoes_along_flow<DepthDelay>::value)
-    return depth_delay.undo_along_flow(as_it_came, frame, matches, workspace);
+template <class DepthRegistration>
+DepthView undo_along_flow([[maybe_unused]] DepthRegistration& depth_registration,
+                          [[maybe_unused]] const FrameView& as_it_came, const FrameView& frame,
+                          [[maybe_unused]] const Matches& matches, [[maybe_unused]] Workspace& workspace) {
+  if constexpr (undoes_along_flow<DepthRegistration>::value)
+    return depth_registration.undo_along_flow(as_it_came, frame, matches, workspace);
   else
     return frame.depth;
 }

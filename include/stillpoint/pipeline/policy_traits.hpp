@@ -41,13 +41,13 @@ template <class P, class = void> struct is_depth_lookup : std::false_type {};
 template <class P> struct is_depth_lookup<P, std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().at(
     std::declval<const DepthView&>(), std::declval<const Vector2f&>()))>>> : std::true_type {};
 
-template <class P, class Camera, class = void> struct is_depth_delay : std::false_type {};
-template <class P, class Camera> struct is_depth_delay<P, Camera, std::void_t<
+template <class P, class Camera, class = void> struct is_depth_registration : std::false_type {};
+template <class P, class Camera> struct is_depth_registration<P, Camera, std::void_t<
     std::enable_if_t<detail::returns<DepthView, decltype(std::declval<P&>().undo(std::declval<const FrameView&>(),
     std::declval<const Pose&>(), std::declval<const Camera&>()))>>,
     decltype(std::declval<P&>().observe(std::declval<const FrameView&>(), std::declval<const Matches&>(),
     std::declval<span<const Label>>(), std::declval<const Motion&>(), std::declval<const Camera&>())),
-    std::enable_if_t<detail::returns<double, decltype(std::declval<const P&>().frames())>>,
+    std::enable_if_t<detail::returns<Warnings, decltype(std::declval<const P&>().warnings())>>,
     decltype(std::declval<P&>().reset())>> : std::true_type {};
 
 template <class P, class Camera, class Noise, class = void> struct is_hole_filling : std::false_type {};
@@ -118,14 +118,14 @@ template <class Policies> struct has_history_length<Policies, std::enable_if_t<
 
 // clang-format on
 
-struct NoMovers;       // movers/no_movers.hpp
-struct NoDepthDelay;   // depth/no_depth_delay.hpp
-struct NoHoleFilling;  // depth/no_hole_filling.hpp
+struct NoMovers;             // movers/no_movers.hpp
+struct NoDepthRegistration;  // depth/no_depth_registration.hpp
+struct NoHoleFilling;        // depth/no_hole_filling.hpp
 
 namespace detail {
 
 template <class Policies>
-using named_depth_delay = typename Policies::DepthDelay;
+using named_depth_registration = typename Policies::DepthRegistration;
 template <class Policies>
 using named_hole_filling = typename Policies::HoleFilling;
 template <class Policies>
@@ -143,9 +143,10 @@ struct named_or<Named, Policies, Null, std::void_t<Named<Policies>>> {
 
 }  // namespace detail
 
-/// The stage that a set has for depth of another time: `NoDepthDelay` where it names none.
+/// The stage that a set has for depth of another time: `NoDepthRegistration` where it names none.
 template <class Policies>
-using DepthDelayOf = typename detail::named_or<detail::named_depth_delay, Policies, NoDepthDelay>::type;
+using DepthRegistrationOf =
+    typename detail::named_or<detail::named_depth_registration, Policies, NoDepthRegistration>::type;
 
 /// The stage that a set has for holes of the depth image: `NoHoleFilling` where it names none.
 template <class Policies>
@@ -183,10 +184,10 @@ struct PolicyContract {
                 "stillpoint: Policies::DepthLookup must offer double at(const DepthView&, const Vector2f& depth_pixel) "
                 "const; see depth/depth_lookup.hpp");
   static_assert(
-      is_depth_delay<DepthDelayOf<Policies>, Camera>::value,
-      "stillpoint: Policies::DepthDelay must offer DepthView undo(const FrameView&, const Pose&, const "
+      is_depth_registration<DepthRegistrationOf<Policies>, Camera>::value,
+      "stillpoint: Policies::DepthRegistration must offer DepthView undo(const FrameView&, const Pose&, const "
       "Camera&), void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const "
-      "Camera&), double frames() const and void reset(); see depth/no_depth_delay.hpp");
+      "Camera&), Warnings warnings() const and void reset(); see depth/no_depth_registration.hpp");
   static_assert(is_hole_filling<HoleFillingOf<Policies>, Camera, typename Policies::DepthNoise>::value,
                 "stillpoint: Policies::HoleFilling must offer DepthView fill(const FrameView& reference, const "
                 "FrameView& current, const Pose& current_from_reference, const Camera&, const DepthNoise&) and void "

@@ -179,9 +179,9 @@ struct OptionalMembers {
       !detail::has_fill_along_flow<HoleFillingOf<Policies>>::value,
       "stillpoint: Policies::HoleFilling has a member fill_along_flow, but not DepthView fill_along_flow(const FrameView& "
       "reference, const FrameView& current, const Matches&, const DepthNoise&, Workspace&); see docs/extending.md");
-  static_assert(undoes_along_flow<DepthDelayOf<Policies>>::value ||
-      !detail::has_undo_along_flow<DepthDelayOf<Policies>>::value,
-      "stillpoint: Policies::DepthDelay has a member undo_along_flow, but not DepthView undo_along_flow(const FrameView& "
+  static_assert(undoes_along_flow<DepthRegistrationOf<Policies>>::value ||
+      !detail::has_undo_along_flow<DepthRegistrationOf<Policies>>::value,
+      "stillpoint: Policies::DepthRegistration has a member undo_along_flow, but not DepthView undo_along_flow(const FrameView& "
       "as_it_came, const FrameView& current, const Matches&, Workspace&); see docs/extending.md");
   static_assert(refines<typename Policies::EgoMotion, Camera>::value || !detail::has_refine<typename Policies::EgoMotion>::value,
       "stillpoint: Policies::EgoMotion has a member refine, but not void refine(Observations&, const Camera&, const "

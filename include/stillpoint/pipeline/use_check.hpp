@@ -120,6 +120,9 @@ class UseCheck {
     if (warnings.has(Warning::depth_unsynchronised))
       return "Depth images are older or newer than their images, by half the time between frames or more: pair them by "
              "time, or let the sensor synchronise them.";
+    if (warnings.has(Warning::depth_shifted))
+      return "Depth images lie some pixels beside their images: are the calibration between the two cameras and the "
+             "alignment to the image right?";
     if (warnings.has(Warning::nothing_fits))
       return "Hardly a frame can be judged: are depth and image aligned, of one moment, not mirrored, the focal "
              "lengths right, and has reference_pixels, if it is used, one entry per keypoint?";

@@ -8,8 +8,8 @@
 
 #include "stillpoint/cluster/surface_clusters.hpp"
 #include "stillpoint/core/camera.hpp"
-#include "stillpoint/depth/depth_delay.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
+#include "stillpoint/depth/depth_registration.hpp"
 #include "stillpoint/depth/guarded_depth.hpp"
 #include "stillpoint/depth/temporal_hole_filling.hpp"
 #include "stillpoint/gate/tail_gate.hpp"
@@ -29,7 +29,7 @@ struct DefaultPolicies {
   using Camera = stillpoint::Camera;
   using DepthNoise = AnyDepthNoise;
   using DepthLookup = GuardedDepth;
-  using DepthDelay = stillpoint::DepthDelay;
+  using DepthRegistration = stillpoint::DepthRegistration;
   using HoleFilling = TemporalHoleFilling;
   using Prior = PropagatedPrior;
   using Matcher = PatchMatcher;

@@ -77,20 +77,21 @@ struct RecordingDepthLookup : GuardedDepth, mock::Stage {
   }
 };
 
-struct RecordingDepthDelay : DepthDelay, mock::Stage {
+struct RecordingDepthRegistration : DepthRegistration, mock::Stage {
   template <class... A>
-  auto undo(A&&... a) -> decltype(std::declval<DepthDelay&>().undo(std::forward<A>(a)...)) {
-    return note("depth_delay.undo"), DepthDelay::undo(std::forward<A>(a)...);
+  auto undo(A&&... a) -> decltype(std::declval<DepthRegistration&>().undo(std::forward<A>(a)...)) {
+    return note("depth_registration.undo"), DepthRegistration::undo(std::forward<A>(a)...);
   }
   template <class... A>
-  auto undo_along_flow(A&&... a) -> decltype(std::declval<DepthDelay&>().undo_along_flow(std::forward<A>(a)...)) {
-    return note("depth_delay.undo_along_flow"), DepthDelay::undo_along_flow(std::forward<A>(a)...);
+  auto undo_along_flow(A&&... a)
+      -> decltype(std::declval<DepthRegistration&>().undo_along_flow(std::forward<A>(a)...)) {
+    return note("depth_registration.undo_along_flow"), DepthRegistration::undo_along_flow(std::forward<A>(a)...);
   }
   template <class... A>
-  auto observe(A&&... a) -> decltype(std::declval<DepthDelay&>().observe(std::forward<A>(a)...)) {
-    return note("depth_delay.observe"), DepthDelay::observe(std::forward<A>(a)...);
+  auto observe(A&&... a) -> decltype(std::declval<DepthRegistration&>().observe(std::forward<A>(a)...)) {
+    return note("depth_registration.observe"), DepthRegistration::observe(std::forward<A>(a)...);
   }
-  void reset() { note("depth_delay.reset"), DepthDelay::reset(); }
+  void reset() { note("depth_registration.reset"), DepthRegistration::reset(); }
 };
 
 struct RecordingHoleFilling : TemporalHoleFilling, mock::Stage {
@@ -175,7 +176,7 @@ struct RecordingPolicies : DefaultPolicies {
   using Prior = RecordingPrior;
   using Matcher = RecordingMatcher;
   using DepthLookup = RecordingDepthLookup;
-  using DepthDelay = RecordingDepthDelay;
+  using DepthRegistration = RecordingDepthRegistration;
   using HoleFilling = RecordingHoleFilling;
   using EgoMotion = RecordingEgoMotion;
   using Scorer = RecordingScorer;
@@ -189,7 +190,7 @@ template <class Recording, class Real>
 constexpr bool records = std::is_base_of_v<Real, Recording>;
 static_assert(records<RecordingPrior, DefaultPolicies::Prior> && records<RecordingMatcher, DefaultPolicies::Matcher> &&
                   records<RecordingDepthLookup, DefaultPolicies::DepthLookup> &&
-                  records<RecordingDepthDelay, DefaultPolicies::DepthDelay> &&
+                  records<RecordingDepthRegistration, DefaultPolicies::DepthRegistration> &&
                   records<RecordingHoleFilling, DefaultPolicies::HoleFilling> &&
                   records<RecordingEgoMotion, DefaultPolicies::EgoMotion> &&
                   records<RecordingScorer, DefaultPolicies::Scorer> && records<RecordingGate, DefaultPolicies::Gate> &&
@@ -221,7 +222,7 @@ class CallOrder : public testing::Test {
   CallOrder() {
     filter_.prior.log = filter_.matcher.log = filter_.depth_lookup.log = filter_.ego_motion.log = &log_;
     filter_.scorer.log = filter_.gate.log = filter_.classifier.log = filter_.memory.log = filter_.keep_floor.log =
-        filter_.movers.log = filter_.depth_delay.log = filter_.hole_filling.log = &log_;
+        filter_.movers.log = filter_.depth_registration.log = filter_.hole_filling.log = &log_;
   }
 
   const FrameResult& run(std::size_t f) {

@@ -16,7 +16,7 @@
 
 #include "mock_policies.hpp"
 #include "stillpoint/core/compact.hpp"
-#include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_depth_registration.hpp"
 #include "stillpoint/depth/no_hole_filling.hpp"
 #include "stillpoint/memory/no_memory.hpp"
 #include "stillpoint/opencv.hpp"
@@ -617,7 +617,7 @@ TEST_F(FrameFilterTest, TheMaskOfAFrameThatWasNotJudgedKeepsAll) {
 }
 
 /// Says that depth is late, and gives 3 m everywhere in its place.
-struct ThreeMetres : NoDepthDelay {
+struct ThreeMetres : NoDepthRegistration {
   template <class Camera>
   DepthView undo(const FrameView&, const Pose&, const Camera&) noexcept {
     return DepthView(undone_m);
@@ -626,7 +626,7 @@ struct ThreeMetres : NoDepthDelay {
   void observe(const FrameView& frame, const Matches&, span<const Label>, const Motion&, const Camera&) {
     observed = frame.depth.image.data;
   }
-  double frames() const noexcept { return 1.0; }
+  Warnings warnings() const noexcept { return Warning::depth_unsynchronised; }
 
   cv::Mat undone_m = cv::Mat(48, 64, CV_32FC1, cv::Scalar(3.0));
   const std::uint8_t* observed = nullptr;
@@ -641,7 +641,7 @@ struct DepthMatcher : mock::Matcher {
 };
 struct LateDepth : mock::Policies {
   using Matcher = DepthMatcher;
-  using DepthDelay = ThreeMetres;
+  using DepthRegistration = ThreeMetres;
 };
 
 /// A wall at 1 m, as the sensor sees it.
@@ -660,7 +660,7 @@ TEST(FrameFilter, UsesAndRemembersTheDepthOfTheImagesTimeAndObservesItAsItCame) 
   const FrameResult& result = filter.filter_frame(wall.at(1.1), wall.keypoints);
   ASSERT_EQ(result.status(), Status::ok);
   EXPECT_EQ(result.depth_m(0), 3.0);
-  EXPECT_EQ(filter.depth_delay.observed, wall.depth_m.data);
+  EXPECT_EQ(filter.depth_registration.observed, wall.depth_m.data);
   filter.filter_frame(wall.at(1.2), wall.keypoints);
   EXPECT_EQ(filter.matcher.reference_m, 3.0f);
 }
@@ -689,7 +689,7 @@ TEST(FrameFilter, FillsHolesOfTheDepthOfTheImagesTimeAndRemembersThemFilled) {
   EXPECT_EQ(result.depth_m(0), 2.0);
   EXPECT_EQ(filter.hole_filling.reference_m, 1.0f) << "the first frame is not judged: as it came";
   EXPECT_EQ(filter.hole_filling.current_m, 3.0f) << "undone";
-  EXPECT_EQ(filter.depth_delay.observed, wall.depth_m.data) << "observed as it came";
+  EXPECT_EQ(filter.depth_registration.observed, wall.depth_m.data) << "observed as it came";
   filter.filter_frame(wall.at(1.2), wall.keypoints);
   EXPECT_EQ(filter.hole_filling.reference_m, 2.0f);
 }

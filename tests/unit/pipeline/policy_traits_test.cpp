@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "compile_fail/sound_policies.hpp"
-#include "stillpoint/depth/depth_delay.hpp"
-#include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/depth_registration.hpp"
+#include "stillpoint/depth/no_depth_registration.hpp"
 #include "stillpoint/depth/no_hole_filling.hpp"
 #include "stillpoint/depth/temporal_hole_filling.hpp"
 
@@ -68,11 +68,11 @@ struct ChangingNoise {
 struct ChangingLookup {
   double at(const DepthView&, const Vector2f&);
 };
-struct WithoutReset : NoDepthDelay {
+struct WithoutReset : NoDepthRegistration {
  private:
   void reset();
 };
-struct WithoutUndo : NoDepthDelay {
+struct WithoutUndo : NoDepthRegistration {
  private:
   void undo();
 };
@@ -99,8 +99,8 @@ TEST(PolicyTraits, SoundStagesAreTaken) {
   EXPECT_TRUE(is_camera<Camera>::value);
   EXPECT_TRUE(is_depth_noise<SoundPolicies::DepthNoise>::value);
   EXPECT_TRUE(is_depth_lookup<SoundPolicies::DepthLookup>::value);
-  EXPECT_TRUE((is_depth_delay<NoDepthDelay, Camera>::value));
-  EXPECT_TRUE((is_depth_delay<DepthDelay, Camera>::value));
+  EXPECT_TRUE((is_depth_registration<NoDepthRegistration, Camera>::value));
+  EXPECT_TRUE((is_depth_registration<DepthRegistration, Camera>::value));
   EXPECT_TRUE((is_hole_filling<NoHoleFilling, Camera, KinectNoise>::value));
   EXPECT_TRUE((is_hole_filling<TemporalHoleFilling, Camera, KinectNoise>::value));
   EXPECT_TRUE(is_prior<SoundPolicies::Prior>::value);
@@ -119,8 +119,8 @@ TEST(PolicyTraits, ATypeWithoutTheMemberIsNoStage) {
   EXPECT_FALSE(is_camera<Nothing>::value);
   EXPECT_FALSE(is_depth_noise<Nothing>::value);
   EXPECT_FALSE(is_depth_lookup<Nothing>::value);
-  EXPECT_FALSE((is_depth_delay<Nothing, Camera>::value));
-  EXPECT_FALSE((is_depth_delay<WithoutUndo, Camera>::value));
+  EXPECT_FALSE((is_depth_registration<Nothing, Camera>::value));
+  EXPECT_FALSE((is_depth_registration<WithoutUndo, Camera>::value));
   EXPECT_FALSE((is_hole_filling<Nothing, Camera, KinectNoise>::value));
   EXPECT_FALSE((is_hole_filling<WithoutFill, Camera, KinectNoise>::value));
   EXPECT_FALSE(is_prior<Nothing>::value);
@@ -149,7 +149,7 @@ TEST(PolicyTraits, WhoRemembersFramesMustForgetThem) {
   EXPECT_FALSE(is_matcher<NoMatcherReset>::value);
   EXPECT_FALSE(is_memory<NoUpdate>::value);
   EXPECT_FALSE(is_memory<NoMemoryReset>::value);
-  EXPECT_FALSE((is_depth_delay<WithoutReset, Camera>::value));
+  EXPECT_FALSE((is_depth_registration<WithoutReset, Camera>::value));
   EXPECT_FALSE((is_hole_filling<FillingWithoutReset, Camera, KinectNoise>::value));
 }
 

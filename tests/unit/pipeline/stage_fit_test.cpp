@@ -17,7 +17,7 @@
 
 #include "backends/followed_corners.hpp"
 #include "stillpoint/depth/depth_noise.hpp"
-#include "stillpoint/depth/no_depth_delay.hpp"
+#include "stillpoint/depth/no_depth_registration.hpp"
 #include "stillpoint/depth/no_hole_filling.hpp"
 #include "stillpoint/depth/temporal_hole_filling.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
@@ -38,7 +38,7 @@ namespace {
 
 // clang-format off
 template <class Set, class T> struct WithDepthNoise : Set { using DepthNoise = T; };
-template <class Set, class T> struct WithDepthDelay : Set { using DepthDelay = T; };
+template <class Set, class T> struct WithDepthRegistration : Set { using DepthRegistration = T; };
 template <class Set, class T> struct WithHoleFilling : Set { using HoleFilling = T; };
 template <class Set, class T> struct WithDepthLookup : Set { using DepthLookup = T; };
 template <class Set, class T> struct WithPrior : Set { using Prior = T; };
@@ -165,10 +165,10 @@ std::string replace_each(const Expected& expected) {
   EXPECT_REPLACED(Memory, EvidenceMemory);
   EXPECT_REPLACED(KeepFloor, NoKeepFloor);
   EXPECT_REPLACED(KeepFloor, stillpoint::KeepFloor);
-  if constexpr (std::is_same_v<DepthDelayOf<Set>, NoDepthDelay>)
-    expect_finds_or_refused<WithDepthDelay<Set, DepthDelay>>("DepthDelay", expected, refused);
+  if constexpr (std::is_same_v<DepthRegistrationOf<Set>, NoDepthRegistration>)
+    expect_finds_or_refused<WithDepthRegistration<Set, DepthRegistration>>("DepthRegistration", expected, refused);
   else
-    expect_finds_or_refused<WithDepthDelay<Set, NoDepthDelay>>("NoDepthDelay", expected, refused);
+    expect_finds_or_refused<WithDepthRegistration<Set, NoDepthRegistration>>("NoDepthRegistration", expected, refused);
   if constexpr (std::is_same_v<HoleFillingOf<Set>, NoHoleFilling>)
     expect_finds_or_refused<WithHoleFilling<Set, TemporalHoleFilling>>("TemporalHoleFilling", expected, refused);
   else

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
-#include "stillpoint/depth/depth_delay.hpp"
+#include "stillpoint/depth/depth_registration.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,10 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/random.hpp"
 #include "stillpoint/core/score.hpp"
+#include "stillpoint/core/warnings.hpp"
 #include "stillpoint/core/workspace.hpp"
 
-namespace stillpoint::depth_delay_test {
+namespace stillpoint::depth_registration_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 60;
@@ -32,9 +33,9 @@ Camera camera() { return Camera(kFocal_px, kFocal_px, 159.5, 29.5, kWidth, kHeig
 
 /// Bright posts 1 m before the camera and a dark wall behind them; the camera moves sideways, so that all edges go by
 /// as many pixels.
-class DepthDelayTest : public testing::Test {
+class DepthRegistrationTest : public testing::Test {
  protected:
-  DepthDelayTest() {
+  DepthRegistrationTest() {
     for (double& left_px : left_px_) left_px = random_.uniform(20.0, kWidth - 40.0);
   }
 
@@ -47,7 +48,7 @@ class DepthDelayTest : public testing::Test {
   /// Where the posts are at a time, which is counted in frames.
   static double swings(double time) { return 14.0 * std::sin(0.35 * time) + 5.0 * std::sin(0.8 * time); }
 
-  /// Shows frames to `delay_`.
+  /// Shows frames to `registration_`.
   /// @param late   the depth image is of so many frames before
   /// @param off_px  and lies so far to the right
   void observe(int frames, double late, double off_px = 0.0, const std::function<double(double)>& offset_px = swings) {
@@ -68,7 +69,7 @@ class DepthDelayTest : public testing::Test {
           make_pose(Matrix3d::Identity(), {(now_px - offset_px(frame_ - 1)) / kFocal_px, 0.0, 0.0});
       move_features(static_cast<float>(now_px - offset_px(frame_ - 1)));
       if (is_still_) motion.current_from_reference.setIdentity();
-      delay_.observe(view(), matches_, labels_, motion, camera());
+      registration_.observe(view(), matches_, labels_, motion, camera());
     }
   }
 
@@ -108,182 +109,268 @@ class DepthDelayTest : public testing::Test {
   bool is_still_ = false;  // the posts go by themselves
   Matches matches_;
   std::vector<Label> labels_;
-  DepthDelay delay_;
+  DepthRegistration registration_;
 };
 
-TEST_F(DepthDelayTest, DepthOfItsImagesMomentHasNone) {
+TEST_F(DepthRegistrationTest, DepthOfItsImagesMomentHasNone) {
   observe(100, 0.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
-TEST_F(DepthDelayTest, DepthOfTheFrameBeforeIsOneFrameLate) {
+TEST_F(DepthRegistrationTest, DepthOfTheFrameBeforeIsOneFrameLate) {
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
-TEST_F(DepthDelayTest, OfHalfAFrameToo) {
+TEST_F(DepthRegistrationTest, OfHalfAFrameToo) {
   observe(80, 0.5);
-  EXPECT_EQ(delay_.frames(), 0.5);
+  EXPECT_EQ(registration_.frames(), 0.5);
 }
 
 // By the velocity before, which is not that after.
-TEST_F(DepthDelayTest, DepthOfTheFrameAfterIsEarly) {
+TEST_F(DepthRegistrationTest, DepthOfTheFrameAfterIsEarly) {
   observe(80, -1.0);
-  EXPECT_NEAR(delay_.frames(), -1.0, 0.25);
+  EXPECT_NEAR(registration_.frames(), -1.0, 0.25);
 }
 
-TEST_F(DepthDelayTest, AConstantShiftIsNoDelay) {
+TEST_F(DepthRegistrationTest, AConstantShiftIsNoDelay) {
   observe(80, 0.0, 3.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
-TEST_F(DepthDelayTest, NorDoesItHideOne) {
+TEST_F(DepthRegistrationTest, NorDoesItHideOne) {
   observe(80, 1.0, 3.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
 // With the camera's swings a delay makes a part of the shift good.
-TEST_F(DepthDelayTest, AShiftBeyondWhatIsSearchedTellsNothing) {
+TEST_F(DepthRegistrationTest, AShiftBeyondWhatIsSearchedTellsNothing) {
   for (const double off_px : {5.0, 6.0, 8.0, -5.0, -7.0}) {
-    delay_.reset();
+    registration_.reset();
     observe(80, 0.0, off_px);
-    EXPECT_EQ(delay_.frames(), 0.0) << off_px;
+    EXPECT_EQ(registration_.frames(), 0.0) << off_px;
   }
 }
 
 // Each delay looks like a shift then.
-TEST_F(DepthDelayTest, WhereTheCameraMovesEvenlyNobodyKnows) {
+TEST_F(DepthRegistrationTest, WhereTheCameraMovesEvenlyNobodyKnows) {
   observe(60, 1.0, 0.0, [](double time) { return 3.0 * time - 60.0; });
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
-TEST_F(DepthDelayTest, WhereItStandsNobodyKnows) {
+TEST_F(DepthRegistrationTest, WhereItStandsNobodyKnows) {
   observe(80, 1.0, 0.0, [](double) { return 0.0; });
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
-TEST_F(DepthDelayTest, WhatIsFoundHoldsWhileTheCameraStands) {
+TEST_F(DepthRegistrationTest, WhatIsFoundHoldsWhileTheCameraStands) {
   observe(80, 1.0);
   observe(400, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
-TEST_F(DepthDelayTest, WhatIsMendedIsForgotten) {
+TEST_F(DepthRegistrationTest, WhatIsMendedIsForgotten) {
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
   observe(400, 0.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
 // Depth of half the size, 16 bit.
-TEST_F(DepthDelayTest, OfASmallerDepthImageToo) {
+TEST_F(DepthRegistrationTest, OfASmallerDepthImageToo) {
   shrink_ = 2;
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
-TEST_F(DepthDelayTest, AMotionWithoutAScaleTellsNothing) {
+TEST_F(DepthRegistrationTest, AMotionWithoutAScaleTellsNothing) {
   is_metric_ = false;
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
-TEST_F(DepthDelayTest, AResetForgetsIt) {
+TEST_F(DepthRegistrationTest, AResetForgetsIt) {
   observe(80, 1.0);
-  delay_.reset();
-  EXPECT_EQ(delay_.frames(), 0.0);
+  registration_.reset();
+  EXPECT_EQ(registration_.frames(), 0.0);
   observe(2, 1.0);
-  EXPECT_EQ(delay_.frames(), 0.0) << "nor does the next look bring it back";
+  EXPECT_EQ(registration_.frames(), 0.0) << "nor does the next look bring it back";
 }
 
-TEST_F(DepthDelayTest, AResetForgetsWhatMoversTold) {
+TEST_F(DepthRegistrationTest, AResetForgetsWhatMoversTold) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   observe(80, 1.0);
-  delay_.reset();
+  registration_.reset();
   observe(1, 0.0, 0.0, [](double) { return 0.0; });
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
 // The posts go by as if the camera moved, but are dynamic, and nobody knows how they moved: nothing is left that would
 // tell.
-TEST_F(DepthDelayTest, WhatMovesByItselfTellsNothing) {
+TEST_F(DepthRegistrationTest, WhatMovesByItselfTellsNothing) {
   dynamic_features(1.0, MatchState::lost);
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
   dynamic_features(2.0, MatchState::lost);  // of something behind the posts
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
 // The camera stands, the posts swing by themselves.
-TEST_F(DepthDelayTest, UnlessItIsKnownHow) {
+TEST_F(DepthRegistrationTest, UnlessItIsKnownHow) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   for (Label& label : labels_) label.keep = true;
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 0.0) << "no dynamic feature";
+  EXPECT_EQ(registration_.frames(), 0.0) << "no dynamic feature";
   dynamic_features(1.0, MatchState::matched);
   for (std::size_t i = 0; i < matches_.size(); i += 2) matches_.state[i] = MatchState::lost;
   observe(60, 1.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
-TEST_F(DepthDelayTest, WhatMovesFindsNoneWhereThereIsNone) {
+TEST_F(DepthRegistrationTest, WhatMovesFindsNoneWhereThereIsNone) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   observe(100, 0.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
   observe(100, 0.0, 3.0);
-  EXPECT_EQ(delay_.frames(), 0.0) << "shifted";
+  EXPECT_EQ(registration_.frames(), 0.0) << "shifted, not late";
 }
 
 // Within 16 px, 5 % of the width.
-TEST_F(DepthDelayTest, AnEdgeMovesWithFeaturesThatAreNear) {
+TEST_F(DepthRegistrationTest, AnEdgeMovesWithFeaturesThatAreNear) {
   is_still_ = true;
   left_px_.fill(150.0);  // and 19 px to either side
   dynamic_features(1.0, MatchState::matched);
   for (std::size_t i = 0; i < matches_.size(); ++i) labels_[i].keep = matches_.current.pixel[i].x() > 110.0f;
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
   for (std::size_t i = 0; i < matches_.size(); ++i) labels_[i].keep = matches_.current.pixel[i].x() < 110.0f;
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
 // What is found while somebody walks holds when they stand, while the memory still calls them dynamic: at no flow all
 // delays are alike.
-TEST_F(DepthDelayTest, WhatIsFoundOnMoversHoldsWhenTheyStand) {
+TEST_F(DepthRegistrationTest, WhatIsFoundOnMoversHoldsWhenTheyStand) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   observe(80, 1.0);
   observe(400, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
-  EXPECT_EQ(delay_.frames(), 1.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
 }
 
-TEST_F(DepthDelayTest, SwitchedOffItLooksAtNothing) {
-  delay_.is_enabled = false;
+// Of movers, by 3 px to the right: it is moved 3 px to the left again.
+TEST_F(DepthRegistrationTest, WhatMovesTellsAShiftToo) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(60, 0.0, 3.0);
+  EXPECT_EQ(registration_.right_px(), -3);
+  EXPECT_EQ(registration_.down_px(), 0);
+  EXPECT_TRUE(registration_.warnings() == Warnings(Warning::depth_shifted));
+  EXPECT_EQ(registration_.frames(), 0.0);
+  left_px_.fill(100.0);
+  observe(1, 0.0, 3.0, [](double) { return 0.0; });  // the post is where the image has it, its depth 3 px beside
+  const DepthView undone = registration_.undo(view(), Pose::Identity(), camera());
+  EXPECT_EQ(undone.metres(99, 30), 3.0f);
+  EXPECT_EQ(undone.metres(100, 30), 1.0f);
+  EXPECT_EQ(undone.metres(111, 30), 1.0f);
+  EXPECT_EQ(undone.metres(112, 30), 3.0f);
+  EXPECT_EQ(undone.metres(kWidth - 1, 30), 0.0f) << "nothing came from there";
+  Workspace workspace;
+  EXPECT_EQ(registration_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data)
+      << "not late";
+}
+
+TEST_F(DepthRegistrationTest, AShiftThatIsMendedIsForgotten) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(60, 0.0, 3.0);
+  EXPECT_EQ(registration_.right_px(), -3);
+  observe(200, 0.0);
+  EXPECT_EQ(registration_.right_px(), 0);
+  EXPECT_TRUE(registration_.warnings().empty());
+}
+
+// Late by a frame, and 3 px to the right: the corners take along what was moved to the left.
+TEST_F(DepthRegistrationTest, AShiftAndADelay) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(80, 1.0, 3.0);
+  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.right_px(), -3);
+  Warnings both = Warning::depth_shifted;
+  both.add(Warning::depth_unsynchronised);
+  EXPECT_TRUE(registration_.warnings() == both);
+  left_px_.fill(100.0);
+  observe(1, 0.0, 3.0, [](double) { return 0.0; });
+  FrameView frame = view();
+  frame.depth = registration_.undo(view(), Pose::Identity(), camera());
+  matches_.begin({});
+  matches_.resize(1);
+  matches_.current.pixel = {Vector2f(116, 30)};
+  matches_.reference.pixel = {Vector2f(106, 30)};
+  matches_.state = {MatchState::matched};
+  Workspace workspace;
+  const DepthView undone = registration_.undo_along_flow(view(), frame, matches_, workspace);
+  EXPECT_NE(undone.metres(109, 30), 1.0f);
+  EXPECT_EQ(undone.metres(110, 30), 1.0f);
+  EXPECT_EQ(undone.metres(121, 30), 1.0f);
+  EXPECT_EQ(undone.metres(122, 30), 3.0f);
+}
+
+// Depth of half the size: 2 pixels of the image are one of its own.
+TEST_F(DepthRegistrationTest, AShiftOfASmallerDepthImage) {
+  is_still_ = true;
+  shrink_ = 2;
+  dynamic_features(1.0, MatchState::matched);
+  observe(60, 0.0, 2.0);
+  EXPECT_NEAR(registration_.right_px(), -2, 1);
+  left_px_.fill(100.0);
+  observe(1, 0.0, 2.0, [](double) { return 0.0; });
+  const DepthView undone = registration_.undo(view(), Pose::Identity(), camera());
+  EXPECT_EQ(undone.metres(48, 15), 3.0f);
+  EXPECT_EQ(undone.metres(50, 15), 1.0f);
+}
+
+TEST_F(DepthRegistrationTest, SwitchedOffThereIsNoShift) {
+  is_still_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(60, 0.0, 3.0);
+  registration_.is_enabled = false;
+  EXPECT_EQ(registration_.right_px(), 0);
+  EXPECT_TRUE(registration_.warnings().empty());
+  EXPECT_EQ(registration_.undo(view(), Pose::Identity(), camera()).image.data, depth_.view().data);
+  registration_.is_enabled = true;
+  registration_.reset();
+  EXPECT_EQ(registration_.right_px(), 0);
+}
+
+TEST_F(DepthRegistrationTest, SwitchedOffItLooksAtNothing) {
+  registration_.is_enabled = false;
   observe(80, 1.0);
-  EXPECT_EQ(delay_.frames(), 0.0);
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
 // Whoever has switched it off is not warned of what it found, nor gets it back.
-TEST_F(DepthDelayTest, SwitchedOffItForgets) {
+TEST_F(DepthRegistrationTest, SwitchedOffItForgets) {
   observe(80, 1.0);
-  delay_.is_enabled = false;
-  EXPECT_EQ(delay_.frames(), 0.0);
+  registration_.is_enabled = false;
+  EXPECT_EQ(registration_.frames(), 0.0);
   observe(1, 0.0);
-  delay_.is_enabled = true;
-  EXPECT_EQ(delay_.frames(), 0.0);
+  registration_.is_enabled = true;
+  EXPECT_EQ(registration_.frames(), 0.0);
 }
 
 // A post's left edge at 100 in the late depth; the camera's motion takes it 10 px to the right within a frame.
-TEST_F(DepthDelayTest, UndoneTheDepthLiesOnItsImage) {
+TEST_F(DepthRegistrationTest, UndoneTheDepthLiesOnItsImage) {
   observe(80, 1.0);
   left_px_.fill(100.0);
   observe(1, 0.0, 0.0, [](double) { return 0.0; });
   const Pose motion = make_pose(Matrix3d::Identity(), {10.0 / kFocal_px, 0.0, 0.0});
-  const DepthView undone = delay_.undo(view(), motion, camera());
+  const DepthView undone = registration_.undo(view(), motion, camera());
   EXPECT_NE(undone.metres(109, 30), 1.0f);
   EXPECT_EQ(undone.metres(110, 30), 1.0f);
   EXPECT_EQ(undone.metres(121, 30), 1.0f);
@@ -291,12 +378,12 @@ TEST_F(DepthDelayTest, UndoneTheDepthLiesOnItsImage) {
 }
 
 // A post that stands before a camera that stands, and whose corners went 10 px to the right.
-TEST_F(DepthDelayTest, UndoneAlongTheFlowItLiesOnWhatMoves) {
+TEST_F(DepthRegistrationTest, UndoneAlongTheFlowItLiesOnWhatMoves) {
   observe(80, 1.0);
   left_px_.fill(100.0);
   observe(1, 0.0, 0.0, [](double) { return 0.0; });
   FrameView frame = view();
-  frame.depth = delay_.undo(view(), Pose::Identity(), camera());
+  frame.depth = registration_.undo(view(), Pose::Identity(), camera());
   EXPECT_EQ(frame.depth.metres(100, 30), 1.0f);
   matches_.begin({});
   matches_.resize(2);
@@ -304,36 +391,36 @@ TEST_F(DepthDelayTest, UndoneAlongTheFlowItLiesOnWhatMoves) {
   matches_.reference.pixel = {Vector2f(106, 30), Vector2f(80, 30)};
   matches_.state = {MatchState::matched, MatchState::matched};
   Workspace workspace;
-  const DepthView undone = delay_.undo_along_flow(view(), frame, matches_, workspace);
+  const DepthView undone = registration_.undo_along_flow(view(), frame, matches_, workspace);
   EXPECT_EQ(undone.metres(109, 30), 3.0f);
   EXPECT_EQ(undone.metres(110, 30), 1.0f);
   EXPECT_EQ(undone.metres(121, 30), 1.0f);
   EXPECT_EQ(undone.metres(122, 30), 3.0f);
 }
 
-TEST_F(DepthDelayTest, DepthThatIsNotLateIsHandedOnAsItIs) {
+TEST_F(DepthRegistrationTest, DepthThatIsNotLateIsHandedOnAsItIs) {
   observe(40, 0.0);
-  const DepthView undone = delay_.undo(view(), make_pose(Matrix3d::Identity(), {0.1, 0.0, 0.0}), camera());
+  const DepthView undone = registration_.undo(view(), make_pose(Matrix3d::Identity(), {0.1, 0.0, 0.0}), camera());
   EXPECT_EQ(undone.image.data, depth_.view().data);
   matches_.resize(1);
   matches_.state[0] = MatchState::matched;
   matches_.current.pixel[0] = {50, 30};
   matches_.reference.pixel[0] = {40, 30};
   Workspace workspace;
-  EXPECT_EQ(delay_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
+  EXPECT_EQ(registration_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
 }
 
 // Nor is there any of a frame without a depth image, or of one for which it is switched off.
-TEST_F(DepthDelayTest, WhatCannotBeUndoneIsHandedOnAsItIs) {
+TEST_F(DepthRegistrationTest, WhatCannotBeUndoneIsHandedOnAsItIs) {
   observe(80, 1.0);
   Workspace workspace;
   const FrameView bare(gray_.view(), DepthView(), 0.0);
-  EXPECT_TRUE(delay_.undo(bare, Pose::Identity(), camera()).empty());
-  EXPECT_EQ(delay_.undo_along_flow(bare, view(), matches_, workspace).image.data, depth_.view().data);
-  delay_.is_enabled = false;
-  EXPECT_EQ(delay_.undo(view(), Pose::Identity(), camera()).image.data, depth_.view().data);
-  EXPECT_EQ(delay_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
+  EXPECT_TRUE(registration_.undo(bare, Pose::Identity(), camera()).empty());
+  EXPECT_EQ(registration_.undo_along_flow(bare, view(), matches_, workspace).image.data, depth_.view().data);
+  registration_.is_enabled = false;
+  EXPECT_EQ(registration_.undo(view(), Pose::Identity(), camera()).image.data, depth_.view().data);
+  EXPECT_EQ(registration_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
 }
 
 }  // namespace
-}  // namespace stillpoint::depth_delay_test
+}  // namespace stillpoint::depth_registration_test

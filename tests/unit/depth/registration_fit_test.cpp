@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
-#include "stillpoint/depth/delay_fit.hpp"
+#include "stillpoint/depth/registration_fit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,16 +11,16 @@
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
 
-namespace stillpoint::delay_fit_test {
+namespace stillpoint::registration_fit_test {
 namespace {
 
 constexpr int kWidth = 320, kHeight = 40;
 
 /// One post per jump: bright, 100 gray levels more than what is around it, 40 px wide. The gray step of an edge is seen
 /// by a jump at its pixel or a half beside it, by one that is a pixel farther off no more.
-class DelayFitTest : public testing::Test {
+class RegistrationFitTest : public testing::Test {
  protected:
-  DelayFitTest() { clear(); }
+  RegistrationFitTest() { clear(); }
 
   void clear() {
     gray_.resize(kWidth, kHeight, PixelFormat::gray8);
@@ -43,11 +43,11 @@ class DelayFitTest : public testing::Test {
 
   ImageBuffer gray_;
   std::vector<FlowingJump> jumps_;
-  DelayFit fit_;
+  RegistrationFit fit_;
 };
 
-TEST_F(DelayFitTest, KnowsNothingAtFirst) {
-  const DelayFit::Best best = fit_.best();
+TEST_F(RegistrationFitTest, KnowsNothingAtFirst) {
+  const RegistrationFit::Best best = fit_.best();
   EXPECT_EQ(best.frames, 0.0);
   EXPECT_EQ(best.gain, 0.0f);
   EXPECT_EQ(best.deviations, 0.0f);
@@ -55,13 +55,13 @@ TEST_F(DelayFitTest, KnowsNothingAtFirst) {
 
 // Two posts go to the right by 16 px and two to the left, all jumps are 16 px behind. At a delay of one frame all four
 // lie on an edge. At none a shift of ±4 px reaches no edge, and any gain is infinite.
-TEST_F(DelayFitTest, WhatGoesBothWaysTellsTheDelay) {
+TEST_F(RegistrationFitTest, WhatGoesBothWaysTellsTheDelay) {
   post(40, 16, 16);
   post(120, 16, 16);
   post(200, -16, -16);
   post(270, -16, -16);
   look(10);
-  const DelayFit::Best best = fit_.best();
+  const RegistrationFit::Best best = fit_.best();
   EXPECT_EQ(best.frames, 1.0);
   EXPECT_TRUE(best.is_inside);
   EXPECT_EQ(best.gain, std::numeric_limits<float>::infinity());
@@ -70,27 +70,39 @@ TEST_F(DelayFitTest, WhatGoesBothWaysTellsTheDelay) {
 // 4 px a frame either way: at no delay a shift of 4 px to one side puts one post of two on its edge. All of them over
 // half of them: a gain of 1. Six looks at four jumps fade by 0.98 each: 4 · (1 - 0.98⁶) / 0.02 = 22.83 jumps, √22.83
 // = 4.78.
-TEST_F(DelayFitTest, AShiftServesOneWayOnly) {
+TEST_F(RegistrationFitTest, AShiftServesOneWayOnly) {
   post(60, 4, 4);
   post(120, 4, 4);
   post(180, -4, -4);
   post(240, -4, -4);
   look(6);
-  const DelayFit::Best best = fit_.best();
+  const RegistrationFit::Best best = fit_.best();
   EXPECT_EQ(best.frames, 1.0);
   EXPECT_NEAR(best.gain, 1.0f, 1e-4f);
   EXPECT_NEAR(best.deviations, 4.78f, 0.01f);
 }
 
-TEST_F(DelayFitTest, WhatGoesOneWayMayBeAShift) {
+TEST_F(RegistrationFitTest, WhatGoesOneWayMayBeAShift) {
   post(60, 3, 3);
   post(120, 3, 3);
   look(20);
-  EXPECT_EQ(fit_.best().frames, 0.0);
-  EXPECT_EQ(fit_.best().gain, 0.0f);
+  const RegistrationFit::Best best = fit_.best();
+  EXPECT_EQ(best.frames, 0.0);
+  EXPECT_EQ(best.gain, 0.0f);
+  EXPECT_EQ(best.right_px, 2) << "of the two pixels beside the edge the one that is nearer";
+  EXPECT_EQ(best.down_px, 0) << "the post is as high as the image: all rows are alike";
+  EXPECT_EQ(best.shift_gain, std::numeric_limits<float>::infinity()) << "no step 3 px before the edge";
 }
 
-TEST_F(DelayFitTest, DepthThatIsTooNewIsBefore) {
+TEST_F(RegistrationFitTest, NoShiftIsBestWhereThereIsNone) {
+  post(60, 0, 3);
+  post(120, 0, -3);
+  look(20);
+  const RegistrationFit::Best best = fit_.best();
+  EXPECT_EQ(best.shift_gain, 0.0f);
+}
+
+TEST_F(RegistrationFitTest, DepthThatIsTooNewIsBefore) {
   post(60, -8, 16);
   post(200, 8, -16);
   look(20);
@@ -98,7 +110,7 @@ TEST_F(DelayFitTest, DepthThatIsTooNewIsBefore) {
 }
 
 // 9 px to the left of all edges, which no shift reaches: at a delay of a frame the shift of 4 px, the farthest, does.
-TEST_F(DelayFitTest, SaysThatTheFarthestShiftIsBest) {
+TEST_F(RegistrationFitTest, SaysThatTheFarthestShiftIsBest) {
   post(60, 9, 5);
   post(120, 9, 5);
   look(20);
@@ -106,7 +118,7 @@ TEST_F(DelayFitTest, SaysThatTheFarthestShiftIsBest) {
 }
 
 // Looks at one delay, then at another: 0.98 of the older each time, so that soon the newer is the better.
-TEST_F(DelayFitTest, WhatWasLongAgoFades) {
+TEST_F(RegistrationFitTest, WhatWasLongAgoFades) {
   const auto look_at = [&](int times, float late_px) {
     clear();
     jumps_.clear();
@@ -122,7 +134,7 @@ TEST_F(DelayFitTest, WhatWasLongAgoFades) {
   EXPECT_EQ(fit_.best().frames, 0.0) << "1 - 0.98^60 are two thirds";
 }
 
-TEST_F(DelayFitTest, FewJumpsTellNothing) {
+TEST_F(RegistrationFitTest, FewJumpsTellNothing) {
   post(60, 16, 16);
   post(200, -16, -16);
   look(11);
@@ -131,7 +143,7 @@ TEST_F(DelayFitTest, FewJumpsTellNothing) {
   EXPECT_EQ(fit_.best().frames, 1.0);
 }
 
-TEST_F(DelayFitTest, AResetForgets) {
+TEST_F(RegistrationFitTest, AResetForgets) {
   post(60, 16, 16);
   post(200, -16, -16);
   look(20);
@@ -141,7 +153,7 @@ TEST_F(DelayFitTest, AResetForgets) {
 }
 
 // An image without an edge, no jumps, jumps that all move out of the image.
-TEST_F(DelayFitTest, NothingToSeeTellsNothing) {
+TEST_F(RegistrationFitTest, NothingToSeeTellsNothing) {
   fit_.add(gray_.view(), {});
   fit_.add(gray_.view(), std::vector<FlowingJump>{{{100.0f, 20.0f}, {8.0f, 0.0f}}});
   fit_.add(gray_.view(), std::vector<FlowingJump>{{{1e9f, 20.0f}, {8.0f, 0.0f}}});
@@ -150,4 +162,4 @@ TEST_F(DelayFitTest, NothingToSeeTellsNothing) {
 }
 
 }  // namespace
-}  // namespace stillpoint::delay_fit_test
+}  // namespace stillpoint::registration_fit_test

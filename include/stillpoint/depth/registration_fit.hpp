@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// By how much must the edges of the depth image move along their flow to lie on those of the image?
+// By how much must the edges of the depth image move along their flow, and aside, to lie on those of the image?
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 
 #include "stillpoint/core/geometry.hpp"
 #include "stillpoint/core/image.hpp"
@@ -22,15 +23,18 @@ struct FlowingJump {
   Vector2f flow = Vector2f::Zero();   ///< since the last frame, pixels
 };
 
-/// Moves jumps of depth by nine delays and sums up the gray steps that they come to lie on. A constant shift between
-/// the two images is left free, so that poor registration is no delay; at a constant flow a delay looks like a shift,
-/// and none is found. What was seen long ago fades; fewer than 20 jumps tell nothing.
-class DelayFit {
+/// Moves jumps of depth by nine delays along their flow, and by 63 shifts, and sums up the gray steps that they come to
+/// lie on. At a constant flow a delay looks like a shift, and no delay is found. What was seen long ago fades; fewer
+/// than 20 jumps tell nothing.
+class RegistrationFit {
  public:
   struct Best {
-    double frames = 0.0;      ///< the delay, in intervals between frames
-    float gain = 0.0f;        ///< by what share its gray steps are more than those of no delay
-    float deviations = 0.0f;  ///< that, times the square root of the number of jumps seen
+    double frames = 0.0;            ///< the delay, in intervals between frames
+    float gain = 0.0f;              ///< by what share its gray steps are more than those of no delay
+    float deviations = 0.0f;        ///< that, times the square root of the number of jumps seen
+    int right_px = 0, down_px = 0;  ///< the shortest of the best shifts at that delay, of depth, gray pixels
+    float shift_gain = 0.0f;        ///< by what share its gray steps are more than those of no shift at that delay
+    float shift_deviations = 0.0f;  ///< as above
     /// False where the farthest shift is best: the images are shifted by more than is searched, and a delay makes up
     /// for a part of it.
     bool is_inside = true;
@@ -39,13 +43,13 @@ class DelayFit {
   /// Adds the mean gray step at the moved jumps of one frame, over that of all delays and shifts.
   void add(const ImageView& gray, span<const FlowingJump> jumps) {
     const int step_px = std::max(gray.width / 320, 1);
+    step_px_ = step_px;
     const std::size_t stride = 1 + jumps.size() / kMostJumps;
     Steps seen;
     float sum = 0.0f;
     for (int d = 0; d < kDelays; ++d)
       for (int s = 0; s < kShifts_x * kShifts_y; ++s) {
-        const int right_px = step_px * (s % kShifts_x - kShifts_x / 2);
-        const int down_px = step_px * (s / kShifts_x - kShifts_y / 2);
+        const int right_px = step_px * steps_right(s), down_px = step_px * steps_down(s);
         int steps = 0;
         for (std::size_t i = 0; i < jumps.size(); i += stride) {
           const Vector2f at = jumps[i].pixel + static_cast<float>(delay(d)) * jumps[i].flow;
@@ -72,11 +76,16 @@ class DelayFit {
     best.frames = delay(delayed);
     best.gain = fit(delayed) / fit(kNoDelay) - 1.0f;
     best.deviations = best.gain * std::sqrt(jumps_);
+    const int shift = least_shift(delayed);
+    best.right_px = step_px_ * steps_right(shift);
+    best.down_px = step_px_ * steps_down(shift);
+    best.shift_gain = steps_[delayed][shift] / steps_[delayed][kNoShift] - 1.0f;
+    best.shift_deviations = best.shift_gain * std::sqrt(jumps_);
     best.is_inside = fit_inside(delayed) >= fit(delayed);
     return best;
   }
 
-  void reset() noexcept { *this = DelayFit(); }
+  void reset() noexcept { *this = RegistrationFit(); }
 
  private:
   static constexpr std::size_t kMostJumps = 400;      // of a frame; more are thinned out
@@ -85,13 +94,26 @@ class DelayFit {
   static constexpr double kDelayStep = 0.25;          // … of frames
   static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
   static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
-  static constexpr float kFading = 0.98f;             // of what was seen, with each frame
+  static constexpr int kNoShift = kShifts_x * kShifts_y / 2;
+  static constexpr float kNearlyBest = 0.95f;
+  static constexpr float kFading = 0.98f;  // of what was seen, with each frame
 
   using Steps = float[kDelays][kShifts_x * kShifts_y];
 
+  static int steps_right(int s) noexcept { return s % kShifts_x - kShifts_x / 2; }
+  static int steps_down(int s) noexcept { return s / kShifts_x - kShifts_y / 2; }
   static double delay(int d) noexcept { return kDelayStep * (d - kNoDelay); }
 
   float fit(int d) const noexcept { return *std::max_element(std::begin(steps_[d]), std::end(steps_[d])); }
+
+  /// The shortest of all shifts that are nearly as good as the best: upright edges say little of one upwards.
+  int least_shift(int d) const noexcept {
+    const auto squared = [](int s) { return steps_right(s) * steps_right(s) + steps_down(s) * steps_down(s); };
+    int least = kNoShift;
+    for (int s = 0, length = std::numeric_limits<int>::max(); s < kShifts_x * kShifts_y; ++s)
+      if (steps_[d][s] >= kNearlyBest * fit(d) && squared(s) < length) length = squared(least = s);
+    return least;
+  }
 
   /// The greatest of all shifts but the farthest.
   float fit_inside(int d) const noexcept {
@@ -103,6 +125,7 @@ class DelayFit {
 
   Steps steps_{};       // gray steps by delay and shift, over their mean, by jumps
   float jumps_ = 0.0f;  // faded as `steps_`
+  int step_px_ = 1;
 };
 
 }  // namespace stillpoint

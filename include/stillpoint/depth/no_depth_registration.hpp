@@ -10,18 +10,19 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/warnings.hpp"
 
 namespace stillpoint {
 
-/// The null stage: each depth image is as old as its image.
-struct NoDepthDelay {
+/// The null stage: each depth image lies on its image.
+struct NoDepthRegistration {
   template <class Camera>
   DepthView undo(const FrameView& frame, const Pose&, const Camera&) const noexcept {
     return frame.depth;
   }
   template <class Camera>
   void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const Camera&) const noexcept {}
-  double frames() const noexcept { return 0.0; }
+  Warnings warnings() const noexcept { return {}; }
   void reset() const noexcept {}
 };
 

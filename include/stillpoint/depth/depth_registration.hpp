@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-// Is the depth image as old as the image?   If it is older, its edges lie where those of the image were before.
+// Does the depth image lie on its image?   Its edges are a little beside those of the image if it is of another time,
+// or shifted.
 
 #include <algorithm>
 #include <cmath>
@@ -17,35 +18,47 @@
 #include "stillpoint/core/motion.hpp"
 #include "stillpoint/core/score.hpp"
 #include "stillpoint/core/span.hpp"
+#include "stillpoint/core/warnings.hpp"
 #include "stillpoint/core/workspace.hpp"
 #include "stillpoint/depth/carried_depth.hpp"
-#include "stillpoint/depth/delay_fit.hpp"
 #include "stillpoint/depth/depth_jumps.hpp"
 #include "stillpoint/depth/depth_lookup.hpp"
 #include "stillpoint/depth/depth_scale.hpp"
 #include "stillpoint/depth/moved_depth.hpp"
+#include "stillpoint/depth/registration_fit.hpp"
+#include "stillpoint/depth/shifted_depth.hpp"
 
 namespace stillpoint {
 
-/// Measures how late depth is, in intervals between frames, and undoes it: the edges of the depth image are moved along
-/// with what they belong to; at the right delay they lie on edges of the gray image (`DelayFit`). Static ones move with
-/// the camera, those beside dynamic features as these do; the clearer of the two answers counts. People who walk tell
-/// it within a few frames, a camera that moves evenly never. docs/design/sweeps.md, "Depth of another time".
-class DepthDelay {
+/// Measures how late depth is, in intervals between frames, and by how many pixels it is shifted, and undoes both: the
+/// edges of the depth image are moved along with what they belong to; with the right delay and shift they lie on edges
+/// of the gray image (`RegistrationFit`). Static ones move with the camera, those beside dynamic features as these do;
+/// for the delay the clearer of the two answers counts, for the shift that of the moving edges, where it does harm.
+/// People who walk tell both within a few frames, a camera that moves evenly never. docs/design/sweeps.md, "Depth of
+/// another time", "Depth that lies beside its image".
+class DepthRegistration {
  public:
   bool is_enabled = true;  ///< false: depth is used as it comes; no option in files
 
-  /// The depth image at the image's time, as if all were static: the frame's own, unless it is known to be of another
-  /// time.
+  /// The depth image at the image's time and place, as if all were static: the frame's own, unless it is known to be of
+  /// another.
   /// @param current_from_reference  roughly, from the last frame to this one
   /// @return  valid until the next call
   template <class Camera>
   DepthView undo(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
-    if (!is_enabled || frames_ == 0.0 || frame.depth.empty()) return frame.depth;
-    return undone_ = moved_(frame, scaled(current_from_reference, frames_), camera);
+    if (!is_enabled || frame.depth.empty()) return frame.depth;
+    in_place_ = frame;
+    if (is_shifted()) {
+      const DepthScale to_depth(frame.gray, frame.depth.image);
+      in_place_.depth = shifted_(frame.depth, rounded(static_cast<float>(right_px_) * to_depth.x),
+                                 rounded(static_cast<float>(down_px_) * to_depth.y));
+    }
+    undone_ = in_place_.depth;
+    if (frames_ != 0.0) undone_ = moved_(in_place_, scaled(current_from_reference, frames_), camera);
+    return undone_;
   }
 
-  /// After the matches: corners take the depth around them along, static or not.
+  /// After the matches: corners take depth of another time along, static or not.
   /// @param as_it_came  the frame that `undo` was given …
   /// @param current     … and with what it returned, some of its holes filled
   /// @param matches     where corners were in the last frame
@@ -53,7 +66,7 @@ class DepthDelay {
   DepthView undo_along_flow(const FrameView& as_it_came, const FrameView& current, const Matches& matches,
                             Workspace& workspace) {
     if (!is_enabled || frames_ == 0.0 || as_it_came.depth.empty()) return current.depth;
-    return carried_(as_it_came, undone_, current.depth, frames_, matches, workspace);
+    return carried_(in_place_, undone_, current.depth, frames_, matches, workspace);
   }
 
   /// Measures at every second frame.
@@ -71,15 +84,29 @@ class DepthDelay {
     if (jumps_.size() >= kFewestJumps && camera_moves(frame.gray.width)) of_static_.add(frame.gray, jumps_);
     find_moving_jumps(frame);
     of_moving_.add(frame.gray, jumps_);
-    decide();
+    decide_delay();
+    decide_shift();
   }
 
   /// By how many intervals between frames depth is older than its image; below 0, newer. 0: less than half an interval,
   /// or not known, or not enabled.
   double frames() const noexcept { return is_enabled ? frames_ : 0.0; }
 
+  /// By how much the depth image is moved, to the right and down, in pixels of the gray image; 0: not known, or not
+  /// enabled.
+  int right_px() const noexcept { return is_enabled ? right_px_ : 0; }
+  int down_px() const noexcept { return is_enabled ? down_px_ : 0; }
+
+  Warnings warnings() const noexcept {
+    Warnings warnings;
+    if (frames() != 0.0) warnings.add(Warning::depth_unsynchronised);
+    if (is_enabled && is_shifted()) warnings.add(Warning::depth_shifted);
+    return warnings;
+  }
+
   void reset() noexcept {
     frames_ = 0.0;
+    right_px_ = down_px_ = 0;
     frame_ = 0;
     of_static_.reset();
     of_moving_.reset();
@@ -92,6 +119,7 @@ class DepthDelay {
   static constexpr float kClearly = 0.15f;           // a delay is better than none by this share …
   static constexpr float kDeviations = 3.5f;         // … and by this over the square root of the number of jumps …
   static constexpr float kMovingDeviations = 5.0f;   // … of movers' jumps: they are of few objects …
+  static constexpr float kShiftDeviations = 15.0f;   // … and for a shift: a delay looks like one at first …
   static constexpr float kStill = 0.03f;             // … and what was found holds while it is better by this
   static constexpr double kLeastDelay = 0.5;         // less is left as it is …
   static constexpr double kLeastHeld = 0.25;         // … unless more was found before
@@ -176,23 +204,36 @@ class DepthDelay {
     });
   }
 
-  void decide() noexcept {
-    const DelayFit::Best of_static = of_static_.best(), of_moving = of_moving_.best();
+  bool is_shifted() const noexcept { return right_px_ != 0 || down_px_ != 0; }
+
+  void decide_delay() noexcept {
+    const RegistrationFit::Best of_static = of_static_.best(), of_moving = of_moving_.best();
     const bool moving_is_clearer = of_moving.deviations > of_static.deviations;
-    const DelayFit::Best& best = moving_is_clearer ? of_moving : of_static;
+    const RegistrationFit::Best& best = moving_is_clearer ? of_moving : of_static;
     const float deviations = moving_is_clearer ? kMovingDeviations : kDeviations;
     const bool is_clear = frames_ != 0.0 ? best.gain > kStill : best.gain > kClearly && best.deviations > deviations;
     const double least = frames_ != 0.0 ? kLeastHeld : kLeastDelay;
     frames_ = is_clear && best.is_inside && std::abs(best.frames) >= least ? best.frames : 0.0;
   }
 
-  DelayFit of_static_, of_moving_;
+  void decide_shift() noexcept {
+    const RegistrationFit::Best best = of_moving_.best();
+    const bool is_clear =
+        best.shift_gain > kClearly && best.is_inside && (is_shifted() || best.shift_deviations > kShiftDeviations);
+    right_px_ = is_clear ? best.right_px : 0;
+    down_px_ = is_clear ? best.down_px : 0;
+  }
+
+  RegistrationFit of_static_, of_moving_;
   std::vector<DynamicFeature> dynamic_;
   std::vector<FlowingJump> jumps_;
   std::size_t frame_ = 0;
   double frames_ = 0.0;
   MovedDepth moved_;
-  DepthView undone_;  // of the current frame, if `frames_` is not 0
+  int right_px_ = 0, down_px_ = 0;
+  ShiftedDepth shifted_;
+  FrameView in_place_;  // the current frame, its depth no more shifted
+  DepthView undone_;    // the same, at the image's time
   CarriedDepth carried_;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The stillpoint authors
 // SPDX-License-Identifier: MIT
 
-// DefaultPolicies where each depth image is of another instant than its picture.
+// DefaultPolicies where each depth image is of another instant than its picture, or lies beside it.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/warnings.hpp"
+#include "stillpoint/depth/shifted_depth.hpp"
 #include "stillpoint/evaluation/feature_score.hpp"
 #include "stillpoint/filter_frame.hpp"
 #include "stillpoint/policies.hpp"
@@ -18,7 +20,7 @@
 #include "stillpoint/synthetic/scenes.hpp"
 #include "unit/pipeline/scene_run.hpp"
 
-namespace stillpoint::late_depth_test {
+namespace stillpoint::registration_scenes_test {
 namespace {
 
 constexpr double kFrame_s = 1.0 / 30.0;
@@ -27,23 +29,31 @@ struct Outcome {
   FilterScore score;
   int known_after = -1;  ///< frames, until the delay was known
   double frames = 0.0;   ///< the delay at the end
+  int right_px = 0;      ///< by which depth is moved at the end
+  Warnings warnings;
   // Features on movers in the second half:
   int with_depth = 0, right = 0;  ///< within 0.1 m
 };
 
 /// Two people who cross before a hand-held camera, 30 frames a second.
-/// @param late_s  so much older than its picture is each depth image
-Outcome run(double late_s, bool is_enabled = true) {
+/// @param late_s    so much older than its picture is each depth image …
+/// @param right_px  … and lies so far to the right of it
+Outcome run(double late_s, int right_px = 0, bool is_enabled = true) {
   synthetic::Scene scene = synthetic::crossing_people(scene_run::small(40));
   scene.sensor.depth_delay_s = -late_s;
   FrameFilter<> filter(scene.camera);
-  filter.depth_delay.is_enabled = is_enabled;
+  filter.depth_registration.is_enabled = is_enabled;
   Outcome outcome;
   int index = 0;
+  ShiftedDepth shifted;
   const auto filter_frame = [&](const SyntheticFrame& frame, std::vector<Vector2f>& pixels) -> const FrameResult& {
     pixels = scene_run::orb_corners(frame, 500);
-    const FrameResult& result = filter.filter_frame(frame.view(), pixels);
-    if (outcome.known_after < 0 && filter.depth_delay.frames() != 0.0) outcome.known_after = index;
+    FrameView view = frame.view();
+    view.depth = shifted(view.depth, right_px, 0);
+    const FrameResult& result = filter.filter_frame(view, pixels);
+    outcome.warnings.add(result.warnings());
+    outcome.right_px = filter.depth_registration.right_px();
+    if (outcome.known_after < 0 && filter.depth_registration.frames() != 0.0) outcome.known_after = index;
     for (std::size_t i = 0; i < pixels.size() && index >= 20; ++i) {
       const int u = rounded(pixels[i].x()), v = rounded(pixels[i].y());
       if (frame.labels.view().row<std::uint8_t>(v)[u] != static_cast<std::uint8_t>(PixelLabel::moving)) continue;
@@ -56,7 +66,7 @@ Outcome run(double late_s, bool is_enabled = true) {
     return result;
   };
   outcome.score = scene_run::run(scene, filter_frame).score;
-  outcome.frames = filter.depth_delay.frames();
+  outcome.frames = filter.depth_registration.frames();
   return outcome;
 }
 
@@ -75,16 +85,34 @@ TEST(LateDepth, IsKnownWithinHalfASecond) {
 TEST(LateDepth, IsNotFoundWhereThereIsNone) {
   const Outcome outcome = run(0.0);
   EXPECT_EQ(outcome.known_after, -1);
+  EXPECT_EQ(outcome.right_px, 0);
+  EXPECT_FALSE(outcome.warnings.has(Warning::depth_unsynchronised));
+  EXPECT_FALSE(outcome.warnings.has(Warning::depth_shifted));
 }
 
 // A fifth of what is late lies on the wall, or on the other of the two.
 TEST(LateDepth, WhatMovesTakesItsDepthAlong) {
-  const Outcome carried = run(kFrame_s), as_it_comes = run(kFrame_s, false);
+  const Outcome carried = run(kFrame_s), as_it_comes = run(kFrame_s, 0, false);
   EXPECT_EQ(as_it_comes.known_after, -1);
   EXPECT_LT(as_it_comes.right, 0.85 * as_it_comes.with_depth);
   EXPECT_GT(carried.right, 0.98 * carried.with_depth);
   EXPECT_GT(carried.with_depth, as_it_comes.with_depth);
 }
 
+// 320 pixels wide: features beside people have their depth, and those on them the wall's. Known to a pixel.
+TEST(ShiftedDepth, IsMovedBack) {
+  for (const int right_px : {2, -3}) {
+    const Outcome moved = run(0.0, right_px), as_it_comes = run(0.0, right_px, false);
+    EXPECT_NEAR(moved.right_px, -right_px, 1);
+    EXPECT_EQ(moved.frames, 0.0);
+    EXPECT_TRUE(moved.warnings.has(Warning::depth_shifted));
+    EXPECT_FALSE(as_it_comes.warnings.has(Warning::depth_shifted));
+    EXPECT_GT(moved.right, 0.98 * moved.with_depth);
+    EXPECT_LT(*moved.score.false_positive_rate(), 0.02) << right_px;
+    if (right_px == -3)
+      EXPECT_GT(moved.right, 1.3 * as_it_comes.right) << "a third of what moves had no depth, or the wall's";
+  }
+}
+
 }  // namespace
-}  // namespace stillpoint::late_depth_test
+}  // namespace stillpoint::registration_scenes_test
