@@ -100,7 +100,7 @@ TEST(LateDepth, WhatMovesTakesItsDepthAlong) {
 }
 
 // 320 pixels wide: features beside people have their depth, and those on them the wall's. Known to a pixel.
-TEST(ShiftedDepth, IsMovedBack) {
+TEST(MisplacedDepth, IsMovedBack) {
   for (const int right_px : {2, -3}) {
     const Outcome moved = run(0.0, right_px), as_it_comes = run(0.0, right_px, false);
     EXPECT_NEAR(moved.right_px, -right_px, 1);
@@ -109,8 +109,9 @@ TEST(ShiftedDepth, IsMovedBack) {
     EXPECT_FALSE(as_it_comes.warnings.has(Warning::depth_shifted));
     EXPECT_GT(moved.right, 0.98 * moved.with_depth);
     EXPECT_LT(*moved.score.false_positive_rate(), 0.02) << right_px;
-    if (right_px == -3)
+    if (right_px == -3) {
       EXPECT_GT(moved.right, 1.3 * as_it_comes.right) << "a third of what moves had no depth, or the wall's";
+    }
   }
 }
 
