@@ -64,11 +64,9 @@ class TemporalHoleFilling {
     filled_.reserve_like(depth);
     if (!was_filled) filled_.forget_ages();
     most_age_ = static_cast<int>(std::min(frames, 255.0));
-    if (depth.format == PixelFormat::depth16)
-      find_tiles<std::uint16_t>(depth, before);
-    else
-      find_tiles<float>(depth, before);
-    return tiles_.empty() ? current.depth : fill_tiles(reference, current, current_from_reference, camera, noise);
+    const bool is_anything_lost = depth.format == PixelFormat::depth16 ? find_lost_tiles<std::uint16_t>(depth, before)
+                                                                       : find_lost_tiles<float>(depth, before);
+    return is_anything_lost ? fill_tiles(reference, current, current_from_reference, camera, noise) : current.depth;
   }
 
   /// After the matches, and after `fill`: a feature in a hole moved as that corner around it along whose flow both
@@ -112,20 +110,18 @@ class TemporalHoleFilling {
   static constexpr float kFlowReach_px = 48.0f;  // how far away a corner may be whose flow a feature follows: two cells
   static constexpr float kFlowBlock_px = 12.0f;  // how far around a feature its flow fills: half a cell
 
-  struct Tile {
-    int left, top;
-  };
-
   std::size_t tiles_in_row() const noexcept {
     return static_cast<std::size_t>(filled_.view().width / TileMotion::kSide_px);
   }
 
+  bool is_lost_tile(int column, int row) const noexcept {
+    const std::size_t tile = static_cast<std::size_t>(row) * tiles_in_row() + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(column) < tiles_in_row() && tile < is_lost_tile_.size() && is_lost_tile_[tile] != 0;
+  }
+
   /// @param pixel  in the depth image
   bool is_in_lost_tile(const Vector2f& pixel) const noexcept {
-    const auto column = static_cast<std::size_t>(rounded(pixel.x()) / TileMotion::kSide_px);
-    const auto row = static_cast<std::size_t>(rounded(pixel.y()) / TileMotion::kSide_px);
-    const std::size_t tile = row * tiles_in_row() + column;
-    return column < tiles_in_row() && tile < is_lost_tile_.size() && is_lost_tile_[tile] != 0;
+    return is_lost_tile(rounded(pixel.x()) / TileMotion::kSide_px, rounded(pixel.y()) / TileMotion::kSide_px);
   }
 
   template <class Depth>
@@ -135,14 +131,13 @@ class TemporalHoleFilling {
 
   /// Those that lost depth; what is left of a tile at the right and lower border is not looked at. Counted by column
   /// first: that becomes vector instructions.
+  /// @return  are there any?
   template <class Depth>
-  void find_tiles(const ImageView& depth, const ImageView& before) {
+  bool find_lost_tiles(const ImageView& depth, const ImageView& before) {
     constexpr int kSide = TileMotion::kSide_px;
     const auto width = static_cast<std::size_t>(depth.width);
-    const std::size_t count = tiles_in_row() * static_cast<std::size_t>(depth.height / kSide);
-    tiles_.clear();
-    tiles_.reserve(count);
-    is_lost_tile_.assign(count, 0);
+    is_lost_tile_.assign(tiles_in_row() * static_cast<std::size_t>(depth.height / kSide), 0);
+    bool is_any_lost = false;
     for (int top = 0; top + kSide <= depth.height; top += kSide) {
       lost_.assign(width, 0);
       for (int v = top; v < top + kSide; ++v) {
@@ -154,11 +149,12 @@ class TemporalHoleFilling {
       for (int left = 0; left + kSide <= depth.width; left += kSide) {
         const auto first = lost_.begin() + left;
         if (std::accumulate(first, first + kSide, 0) < kFewestLost) continue;
-        tiles_.push_back({left, top});
+        is_any_lost = true;
         is_lost_tile_[static_cast<std::size_t>(top / kSide) * tiles_in_row() + static_cast<std::size_t>(left / kSide)] =
             1;
       }
     }
+    return is_any_lost;
   }
 
   template <class Camera, class Noise>
@@ -169,13 +165,16 @@ class TemporalHoleFilling {
     filled_at_s_ = current.timestamp_s;
     const DepthScale to_depth(current.gray, depth);
     const DepthShadow shadow(current, camera);
-    for (const Tile& tile : tiles_) {
-      const TileMotion motion(depth, tile.left, tile.top, to_depth, current_from_reference, camera);
-      for (int v = tile.top; v < tile.top + TileMotion::kSide_px; ++v)
-        for (int u = tile.left; u < tile.left + TileMotion::kSide_px; ++u)
-          if (!current.depth.has_depth(u, v) && reference.depth.has_depth(u, v))
-            fill_pixel(u, v, motion, to_depth, shadow, reference, current, noise);
-    }
+    constexpr int kSide = TileMotion::kSide_px;
+    for (int top = 0; top + kSide <= depth.height; top += kSide)
+      for (int left = 0; left + kSide <= depth.width; left += kSide) {
+        if (!is_lost_tile(left / kSide, top / kSide)) continue;
+        const TileMotion motion(depth, left, top, to_depth, current_from_reference, camera);
+        for (int v = top; v < top + kSide; ++v)
+          for (int u = left; u < left + kSide; ++u)
+            if (!current.depth.has_depth(u, v) && reference.depth.has_depth(u, v))
+              fill_pixel(u, v, motion, to_depth, shadow, reference, current, noise);
+      }
     return DepthView(filled_.view(), current.depth.factor);
   }
 
@@ -277,8 +276,7 @@ class TemporalHoleFilling {
     return sum;
   }
 
-  std::vector<std::uint16_t> lost_;  // by column of a row of tiles
-  std::vector<Tile> tiles_;
+  std::vector<std::uint16_t> lost_;         // by column of a row of tiles
   std::vector<std::uint8_t> is_lost_tile_;  // of all tiles of the image, row by row
   FilledDepth filled_;
   ImageBuffer holes_;              // of a frame without a depth image
