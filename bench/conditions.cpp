@@ -15,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -98,27 +99,49 @@ std::string cell(const std::optional<Summary>& runs, double Summary::*figure, in
   return text;
 }
 
-void print(const std::vector<Row>& rows) {
+void print_head() {
   std::printf(
       "| recording | condition | runs | recall | false-positive rate | own motion p95, mm | own motion p95, deg | "
       "ATE filtered, m | ATE labels, m | ATE unfiltered, m |\n|---|---|---|---|---|---|---|---|---|---|\n");
-  const auto number = [](const std::optional<double>& value) { return value; };
-  for (const Row& row : rows) {
-    const auto of_filter = [&](std::optional<double> Outcome::*figure) {
-      return summary(row.outcomes, [figure](const ConditionOutcome& outcome) { return outcome.filter.*figure; });
-    };
-    const auto filtered = summary(row.outcomes, [](const ConditionOutcome& outcome) { return outcome.ate_filtered_m; });
-    std::printf("| %s | %s | %zu | %s | %s | %s | %s | %s | %s | %s |\n", row.folder.filename().string().c_str(),
-                row.condition.name.c_str(), row.outcomes.size(),
-                cell(of_filter(&Outcome::recall_percent), &Summary::mean, 3, 0.01).c_str(),
-                cell(of_filter(&Outcome::false_positives_percent), &Summary::mean, 4, 0.01).c_str(),
-                cell(of_filter(&Outcome::p95_mm), &Summary::mean, 1).c_str(),
-                cell(of_filter(&Outcome::p95_deg), &Summary::mean, 2).c_str(),
-                cell(filtered, &Summary::median, 4).c_str(),
-                cell(summary(row.labels, number), &Summary::median, 4).c_str(),
-                cell(summary(row.unfiltered, number), &Summary::median, 4).c_str());
-  }
 }
+
+void print(const Row& row) {
+  const auto number = [](const std::optional<double>& value) { return value; };
+  const auto of_filter = [&](std::optional<double> Outcome::*figure) {
+    return summary(row.outcomes, [figure](const ConditionOutcome& outcome) { return outcome.filter.*figure; });
+  };
+  const auto filtered = summary(row.outcomes, [](const ConditionOutcome& outcome) { return outcome.ate_filtered_m; });
+  std::printf("| %s | %s | %zu | %s | %s | %s | %s | %s | %s | %s |\n", row.folder.filename().string().c_str(),
+              row.condition.name.c_str(), row.outcomes.size(),
+              cell(of_filter(&Outcome::recall_percent), &Summary::mean, 3, 0.01).c_str(),
+              cell(of_filter(&Outcome::false_positives_percent), &Summary::mean, 4, 0.01).c_str(),
+              cell(of_filter(&Outcome::p95_mm), &Summary::mean, 1).c_str(),
+              cell(of_filter(&Outcome::p95_deg), &Summary::mean, 2).c_str(),
+              cell(filtered, &Summary::median, 4).c_str(),
+              cell(summary(row.labels, number), &Summary::median, 4).c_str(),
+              cell(summary(row.unfiltered, number), &Summary::median, 4).c_str());
+  std::fflush(stdout);
+}
+
+/// Prints each row as soon as it and those before it are measured: an error, or Ctrl-C, loses nothing that is known.
+class RowPrinter {
+ public:
+  explicit RowPrinter(const std::vector<Row>& rows) : rows_(rows) {
+    for (const Row& row : rows) missing_.push_back(row.outcomes.size());
+  }
+
+  void run_ended(std::size_t row) {
+    const std::lock_guard<std::mutex> lock(guard_);
+    --missing_[row];
+    for (; printed_ < rows_.size() && missing_[printed_] == 0; ++printed_) print(rows_[printed_]);
+  }
+
+ private:
+  const std::vector<Row>& rows_;
+  std::vector<std::size_t> missing_;  // runs, by row
+  std::size_t printed_ = 0;
+  std::mutex guard_;
+};
 
 /// Ends the line of progress before what follows it, an error's message, too.
 struct ProgressLine {
@@ -127,6 +150,8 @@ struct ProgressLine {
 };
 
 void measure(const Arguments& arguments) {
+  for (const std::filesystem::path& folder : arguments.folders)
+    TumSequence{folder};  // a wrong one, before an hour's work
   std::vector<Row> rows;
   for (const std::filesystem::path& folder : arguments.folders)
     for (const Condition& condition : conditions()) {
@@ -143,14 +168,14 @@ void measure(const Arguments& arguments) {
   for (std::size_t r = 0; r < rows.size(); ++r)
     for (std::size_t run = 0; run < rows[r].outcomes.size(); ++run) jobs.emplace_back(r, run);
   std::atomic<std::size_t> done{0};
-  {
-    const ProgressLine line;
-    for_each_in_parallel(jobs.size(), arguments.threads, [&](std::size_t j) {
-      run_once(rows[jobs[j].first], jobs[j].second, arguments);
-      std::fprintf(stderr, "\r%zu of %zu runs", ++done, jobs.size());
-    });
-  }
-  print(rows);
+  print_head();
+  RowPrinter printer(rows);
+  const ProgressLine line;
+  for_each_in_parallel(jobs.size(), arguments.threads, [&](std::size_t j) {
+    run_once(rows[jobs[j].first], jobs[j].second, arguments);
+    std::fprintf(stderr, "\r%zu of %zu runs\r", ++done, jobs.size());
+    printer.run_ended(jobs[j].first);
+  });
 }
 
 Arguments parse(int argc, char** argv) {
