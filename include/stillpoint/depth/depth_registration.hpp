@@ -134,15 +134,17 @@ class DepthRegistration {
     double depth_m;
   };
 
+  static Vector2f unknown() { return Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()); }
+
   void find_dynamic(const Matches& matches, span<const Label> labels) {
     const FrameFeatures& now = matches.current;
-    const Vector2f unknown = Vector2f::Constant(std::numeric_limits<float>::quiet_NaN());
     dynamic_.clear();
     dynamic_.reserve(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (labels[i].keep || !is_finite(now.pixel[i])) continue;
-      const Vector2f flow = matches.matched(i) ? Vector2f(now.pixel[i] - matches.reference.pixel[i]) : unknown;
-      dynamic_.push_back({now.pixel[i], flow, now.depth_m[i]});
+      DynamicFeature feature{now.pixel[i], unknown(), now.depth_m[i]};
+      if (matches.matched(i)) feature.flow = now.pixel[i] - matches.reference.pixel[i];
+      dynamic_.push_back(feature);
     }
   }
 
@@ -158,7 +160,7 @@ class DepthRegistration {
 
   /// Of the nearest dynamic feature whose jump it is; NaN where there is none.
   Vector2f dynamic_flow(const Vector2f& pixel, double depth_m, float reach_px) const {
-    Vector2f flow = Vector2f::Constant(std::numeric_limits<float>::quiet_NaN());
+    Vector2f flow = unknown();
     for (const DynamicFeature& feature : dynamic_) {
       if (!is_finite(feature.flow) || !is_of(feature, pixel, depth_m, reach_px)) continue;
       reach_px = (feature.pixel - pixel).norm();
