@@ -84,8 +84,9 @@ class DepthRegistration {
     if (jumps_.size() >= kFewestJumps && camera_moves(frame.gray.width)) of_static_.add(frame.gray, jumps_);
     find_moving_jumps(frame);
     of_moving_.add(frame.gray, jumps_);
-    decide_delay();
-    decide_shift();
+    const RegistrationFit::Best of_moving = of_moving_.best();
+    decide_delay(of_static_.best(), of_moving);
+    decide_shift(of_moving);
   }
 
   /// By how many intervals between frames depth is older than its image; below 0, newer. 0: less than half an interval,
@@ -208,8 +209,7 @@ class DepthRegistration {
 
   bool is_shifted() const noexcept { return right_px_ != 0 || down_px_ != 0; }
 
-  void decide_delay() noexcept {
-    const RegistrationFit::Best of_static = of_static_.best(), of_moving = of_moving_.best();
+  void decide_delay(const RegistrationFit::Best& of_static, const RegistrationFit::Best& of_moving) noexcept {
     const bool moving_is_clearer = of_moving.deviations > of_static.deviations;
     const RegistrationFit::Best& best = moving_is_clearer ? of_moving : of_static;
     const float deviations = moving_is_clearer ? kMovingDeviations : kDeviations;
@@ -218,8 +218,7 @@ class DepthRegistration {
     frames_ = is_clear && best.is_inside && std::abs(best.frames) >= least ? best.frames : 0.0;
   }
 
-  void decide_shift() noexcept {
-    const RegistrationFit::Best best = of_moving_.best();
+  void decide_shift(const RegistrationFit::Best& best) noexcept {
     const bool is_clear =
         best.shift_gain > kClearly && best.is_inside && (is_shifted() || best.shift_deviations > kShiftDeviations);
     right_px_ = is_clear ? best.right_px : 0;

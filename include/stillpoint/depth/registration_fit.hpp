@@ -109,9 +109,10 @@ class RegistrationFit {
   /// The shortest of all shifts that are nearly as good as the best: upright edges say little of one upwards.
   int least_shift(int d) const noexcept {
     const auto squared = [](int s) { return steps_right(s) * steps_right(s) + steps_down(s) * steps_down(s); };
+    const float nearly_best = kNearlyBest * fit(d);
     int least = kNoShift;
     for (int s = 0, length = std::numeric_limits<int>::max(); s < kShifts_x * kShifts_y; ++s)
-      if (steps_[d][s] >= kNearlyBest * fit(d) && squared(s) < length) length = squared(least = s);
+      if (steps_[d][s] >= nearly_best && squared(s) < length) length = squared(least = s);
     return least;
   }
 

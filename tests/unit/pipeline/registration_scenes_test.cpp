@@ -90,8 +90,8 @@ TEST(LateDepth, IsNotFoundWhereThereIsNone) {
   EXPECT_FALSE(outcome.warnings.has(Warning::depth_shifted));
 }
 
-// A fifth of what is late lies on the wall, or on the other of the two; a tenth where the sanitizers compiled the
-// scene.
+// A fifth of what is late lies on the wall, or on the other of the two; a tenth in the texture that
+// clang++ draws.
 TEST(LateDepth, WhatMovesTakesItsDepthAlong) {
   const Outcome carried = run(kFrame_s), as_it_comes = run(kFrame_s, 0, false);
   EXPECT_EQ(as_it_comes.known_after, -1);
