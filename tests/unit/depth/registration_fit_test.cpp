@@ -94,6 +94,21 @@ TEST_F(RegistrationFitTest, WhatGoesOneWayMayBeAShift) {
   EXPECT_EQ(best.shift_gain, std::numeric_limits<float>::infinity()) << "no step 3 px before the edge";
 }
 
+// A jump 2 px before the edge: moved by 1 px it sees the step up to the post's first column, moved by 2 px that to its
+// second. 97 of 100 gray levels are nearly as good, 90 are not.
+TEST_F(RegistrationFitTest, TheShortestOfShiftsThatAreNearlyAsGood) {
+  for (const int first_column : {147, 140}) {
+    fit_.reset();
+    jumps_.clear();
+    for (const int left_px : {60, 120}) {
+      post(left_px, 2, 0);
+      for (int v = 0; v < kHeight; ++v) gray_.row<std::uint8_t>(v)[left_px] = static_cast<std::uint8_t>(first_column);
+    }
+    look(20);
+    EXPECT_EQ(fit_.best().right_px, first_column == 147 ? 1 : 2);
+  }
+}
+
 TEST_F(RegistrationFitTest, NoShiftIsBestWhereThereIsNone) {
   post(60, 0, 3);
   post(120, 0, -3);
