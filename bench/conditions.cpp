@@ -49,10 +49,10 @@ struct Row {
   std::filesystem::path folder;
   Condition condition;
   std::vector<ConditionOutcome> outcomes;                 ///< one a run
-  std::vector<std::optional<double>> labels, unfiltered;  ///< ATE in metres, one a run that differs
+  std::vector<std::optional<double>> labels, unfiltered;  ///< ATE in metres, one a run
 };
 
-/// Runs differ by the seed of the condition and of the filter's own random numbers.
+/// Runs differ by the seed of the condition and of the filter's own random numbers, and by where they begin.
 FrameFilter<WithMovers<>> make_filter(const LabelledSequence& sequence, const Arguments& arguments, std::size_t run) {
   FrameFilter<WithMovers<>> filter(sequence.camera);
   filter.movers.is_enabled = arguments.with_movers;
@@ -67,7 +67,7 @@ void run_once(Row& row, std::size_t run, const Arguments& arguments) {
     add_boxes(row.folder, sequence.camera.width() / static_cast<double>(TumSequence(row.folder).camera().width()),
               sequence);
   row.outcomes[run] = run_filter(sequence, make_filter(sequence, arguments, run), !arguments.without_trackers);
-  if (arguments.without_trackers || (run > 0 && !row.condition.is_random)) return;
+  if (arguments.without_trackers) return;
   const auto nothing = [](const auto&, const auto&, const auto&) {};
   row.unfiltered[run] = ate_rmse_m(sequence, run_odometry(sequence, NullFilter{}, nothing));
   const bool has_labels = !sequence.frames.empty() && !sequence.frames.front().labels.empty();
@@ -188,7 +188,8 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--only", arguments.only, "conditions, separated by commas [all]")
       ->delimiter(',')
       ->check(CLI::IsMember(names));
-  app.add_option("--seeds", arguments.seeds, "runs of a condition without phases [3]")->check(CLI::Range(1, 100));
+  app.add_option("--seeds", arguments.seeds, "runs of each condition and phase, each from a later frame [3]")
+      ->check(CLI::Range(1, 100));
   app.add_option("--frames", arguments.frames, "of each recording [all]")->check(CLI::Range(2, 1000000));
   app.add_option("--options", arguments.options_file, "options of the stages, YAML")->check(CLI::ExistingFile);
   app.add_option("--threads", arguments.threads, "[one a core]")->check(CLI::Range(1, 256));
