@@ -191,7 +191,9 @@ class Texture {
       const double half_x = 0.5 * mark_px * random.uniform(0.5, 1.1), half_y = 0.5 * mark_px * random.uniform(0.5, 1.1);
       const double angle = random.uniform() < 0.5 ? 0.0 : random.uniform(0.0, 3.141592653589793);
       const auto cosine = static_cast<float>(std::cos(angle)), sine = static_cast<float>(std::sin(angle));
-      const Bgr colour = brighter(style.colours[random.index(style.colours.size())], random.uniform(0.75, 1.2));
+      // One after the other: arguments are evaluated in the compiler's own order.
+      const double gain = random.uniform(0.75, 1.2);
+      const Bgr colour = brighter(style.colours[random.index(style.colours.size())], gain);
       const Texel value = packed(colour), inner = packed(brighter(colour, 0.6));
       const std::size_t kind = random.index(4);
       const int centre_x = static_cast<int>(random.index(static_cast<std::size_t>(size)));

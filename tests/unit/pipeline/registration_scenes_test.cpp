@@ -90,12 +90,11 @@ TEST(LateDepth, IsNotFoundWhereThereIsNone) {
   EXPECT_FALSE(outcome.warnings.has(Warning::depth_shifted));
 }
 
-// A fifth of what is late lies on the wall, or on the other of the two; a tenth in the texture that
-// clang++ draws.
+// A fifth of what is late lies on the wall, or on the other of the two.
 TEST(LateDepth, WhatMovesTakesItsDepthAlong) {
   const Outcome carried = run(kFrame_s), as_it_comes = run(kFrame_s, 0, false);
   EXPECT_EQ(as_it_comes.known_after, -1);
-  EXPECT_LT(as_it_comes.right, 0.93 * as_it_comes.with_depth);
+  EXPECT_LT(as_it_comes.right, 0.85 * as_it_comes.with_depth);
   EXPECT_GT(carried.right, 0.98 * carried.with_depth);
   EXPECT_GT(carried.with_depth, as_it_comes.with_depth);
 }
@@ -111,7 +110,7 @@ TEST(MisplacedDepth, IsMovedBack) {
     EXPECT_GT(moved.right, 0.98 * moved.with_depth);
     EXPECT_LT(*moved.score.false_positive_rate(), 0.02) << right_px;
     if (right_px == -3) {
-      EXPECT_GT(moved.right, 1.1 * as_it_comes.right) << "a sixth of what moves, or more, had no depth, or the wall's";
+      EXPECT_GT(moved.right, 1.3 * as_it_comes.right) << "a third of what moves had no depth, or the wall's";
     }
   }
 }
