@@ -48,9 +48,8 @@ class SpaceSearch {
                         Workspace& workspace) const {
     const span<SurfaceCell> cells = matches.past_observations.surfaces;
     const Workspace::Scope scope(workspace);
-    const SeenEarly seen_early{workspace.take<std::uint8_t>(cells.size(), 0),
-                               workspace.take<std::uint8_t>(matches.size(), 0)};
-    const double early_s = early_after_s(history, timestamp_s);
+    const StoodFor stood_for{workspace.take<double>(cells.size(), 0.0), workspace.take<double>(matches.size(), 0.0)};
+    const span<double> free_ago_s = workspace.take<double>(cells.size(), 0.0);
     for_each_view(history, timestamp_s, filter_from_expected, camera, noise, [&](double elapsed_s, const auto& look) {
       std::size_t through = 0, there = 0;
       for (SurfaceCell& cell : cells) {
@@ -59,20 +58,24 @@ class SpaceSearch {
         there += cell.seen == Space::occupied;
       }
       if (static_cast<double>(through) > kMostCame * static_cast<double>(through + there)) return;
-      const bool is_old = elapsed_s > kSettled_s, is_early = elapsed_s >= early_s;
-      const auto judge = [&](Space seen, float& static_prior, std::uint8_t& occupied_views, std::uint8_t& was_early) {
+      const bool is_old = elapsed_s > kSettled_s;
+      const auto judge = [&](Space seen, float& static_prior, std::uint8_t& occupied_views, double& stood_for_s) {
         if (seen == Space::free) static_prior = std::min(static_prior, kFreeSpaceStaticPrior);
-        if (seen == Space::occupied && is_old) ++occupied_views;
-        if (seen == Space::occupied && is_early) was_early = 1;
+        if (seen != Space::occupied) return;
+        if (is_old) ++occupied_views;
+        stood_for_s = elapsed_s;  // views come from the newest to the oldest
       };
-      for (std::size_t s = 0; s < cells.size(); ++s)
-        judge(cells[s].seen, cells[s].space_static_prior, cells[s].occupied_views, seen_early.cells[s]);
+      for (std::size_t s = 0; s < cells.size(); ++s) {
+        judge(cells[s].seen, cells[s].space_static_prior, cells[s].occupied_views, stood_for.cells_s[s]);
+        if (cells[s].seen == Space::free && free_ago_s[s] == 0.0) free_ago_s[s] = elapsed_s;
+      }
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
         if (matches.current.has_depth(i))
           judge(look(matches.current.point[i]), matches.space_static_prior[i], matches.occupied_views[i],
-                seen_early.corners[i]);
+                stood_for.corners_s[i]);
     });
-    spread_to_unseen(static_cast<float>(step_px), camera.fx(), seen_early, matches, workspace);
+    const double settled_s = std::max(settled_after_s(history, timestamp_s), came_ago_s(free_ago_s, workspace));
+    spread_to_unseen(static_cast<float>(step_px), camera.fx(), stood_for, settled_s, matches, workspace);
   }
 
  private:
@@ -83,26 +86,46 @@ class SpaceSearch {
   static constexpr double kSigmas = 4.0;      // … and so many standard deviations of both depths
   static constexpr double kMostCame = 0.6;    // share of the surfaces: people hide half of a room, rarely more
   static constexpr double kSettled_s = 2.2;   // what was there so long ago is no newcomer …
-  static constexpr double kEarlyShare = 0.5;  // … nor, while less is remembered, this share of it ago
+  static constexpr double kEarlyShare =
+      0.5;  // … nor, while less is remembered, this share of it ago, unless more came then
   static constexpr float kFreeSpaceStaticPrior = 0.05f;  // as after some frames of motion
   static constexpr int kSpreadCells = 12;                // half of an image's width
   static constexpr double kNearest_m = 0.1;
 
-  /// 1: a view of the earlier half of what is remembered saw it in its place.
-  struct SeenEarly {
-    span<std::uint8_t> cells, corners;
+  static constexpr double kMostArrivals = 0.75;      // of those who came had come …
+  static constexpr std::size_t kFewestArrivals = 5;  // … as soon as so many came
+
+  /// Seconds since the oldest view that saw it in its place; 0: none did.
+  struct StoodFor {
+    span<double> cells_s, corners_s;
   };
 
-  /// How old a view must be to tell the room from who came: at the beginning none is `kSettled_s` old, and what nobody
-  /// contradicts would all go to those who came.
-  static double early_after_s(const SpaceHistory& history, double timestamp_s) noexcept {
+  /// How long something must have stood to be of the room: at the beginning nothing has for `kSettled_s`, and what
+  /// nobody contradicts would all go to those who came.
+  static double settled_after_s(const SpaceHistory& history, double timestamp_s) noexcept {
     if (history.size() == 0) return kSettled_s;
     return std::min(kSettled_s, kEarlyShare * (timestamp_s - history.back(history.size()).timestamp_s));
   }
 
+  /// Who came that long ago: what was first seen later may have come along, however long it has stood since. An arm
+  /// that came into view two seconds ago belongs to a body whose place was free before. 0 where hardly anything came.
+  /// @param free_ago_s  of each cell, since the newest view that saw through it; 0: none did
+  static double came_ago_s(span<const double> free_ago_s, Workspace& workspace) {
+    const Workspace::Scope scope(workspace);
+    const span<double> came = workspace.take<double>(free_ago_s.size());
+    const auto end = std::copy_if(free_ago_s.begin(), free_ago_s.end(), came.begin(), [](double s) { return s > 0; });
+    const auto count = static_cast<std::size_t>(end - came.begin());
+    if (count < kFewestArrivals) return 0.0;
+    const auto most = came.begin() + static_cast<std::ptrdiff_t>(kMostArrivals * static_cast<double>(count - 1));
+    std::nth_element(came.begin(), most, end);
+    return *most;
+  }
+
   /// A cell that no view knows takes the majority's side of those that adjoin it, round by round.
-  static void spread_to_unseen(float step_px, double focal_px, const SeenEarly& seen_early, Matches& matches,
-                               Workspace& workspace) {
+  /// @param settled_s  what stood for so long is of the room
+  static void spread_to_unseen(float step_px, double focal_px, const StoodFor& stood_for, double settled_s,
+                               Matches& matches, Workspace& workspace) {
+    const auto is_settled = [settled_s](double seconds) { return seconds > 0 && seconds >= settled_s; };
     const span<SurfaceCell> cells = matches.past_observations.surfaces;
     if (cells.empty()) return;
     const Workspace::Scope scope(workspace);
@@ -112,7 +135,7 @@ class SpaceSearch {
     const span<Side> next = workspace.take<Side>(cells.size());
     for (std::size_t s = 0; s < cells.size(); ++s)
       side[s] = cells[s].space_static_prior < 1.0f ? Side::came
-                : seen_early.cells[s] != 0         ? Side::stood
+                : is_settled(stood_for.cells_s[s]) ? Side::stood
                                                    : Side::nobody_knows;
     if (std::find(side.begin(), side.end(), Side::came) == side.end()) return;  // nothing to hand on
     const auto majority = [&](const Vector2f& pixel, double depth_m) {
@@ -130,7 +153,8 @@ class SpaceSearch {
       std::copy(next.begin(), next.end(), side.begin());
     }
     for (std::size_t i = matches.host_count; i < matches.size(); ++i)
-      if (matches.current.has_depth(i) && matches.space_static_prior[i] >= 1.0f && seen_early.corners[i] == 0 &&
+      if (matches.current.has_depth(i) && matches.space_static_prior[i] >= 1.0f &&
+          !is_settled(stood_for.corners_s[i]) &&
           majority(matches.current.pixel[i], matches.current.depth_m[i]) == Side::came)
         matches.space_static_prior[i] = kFreeSpaceStaticPrior;
     for (std::size_t s = 0; s < cells.size(); ++s)

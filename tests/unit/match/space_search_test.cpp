@@ -194,6 +194,36 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
   EXPECT_LT(matches.space_static_prior[0], 0.1f);
 }
 
+// A body at 2 m spans the row at v = 110. Views of 2.8 s ago and older saw through its right half; its left half they
+// saw not at all, or standing. Those of 2.4 s ago and newer saw all of it: longer than `kSettled_s`, but it may have
+// come with the right half.
+TEST_F(SpaceSearchTest, WhatWasFirstSeenAfterTheOthersCameMayHaveComeWithThem) {
+  for (const bool left_stood_before : {false, true}) {
+    history_.clear();
+    for (int k = 0; k < 10; ++k) {
+      cv::Mat depth = depth_.clone();
+      const bool has_come = k >= 5;  // 2.0 s, of 4.4
+      depth(cv::Rect(160, 95, 160, 30)).setTo(has_come ? 2.0 : 3.0);
+      depth(cv::Rect(0, 95, 160, 30)).setTo(has_come || left_stood_before ? 2.0 : 0.0);
+      history_.push(view_of(gray_, depth, 0.4 * k), Pose::Identity());
+    }
+    Matches matches;
+    matches.begin(std::vector<Vector2f>());
+    for (const int v : {110, 170, 190, 210, 230})
+      for (int u = 10; u < kWidth; u += kStep_px) {
+        SurfaceCell cell;
+        cell.pixel = Vector2f(static_cast<float>(u), static_cast<float>(v));
+        cell.point = camera_.back_project(cell.pixel.cast<double>(), v == 110 ? 2.0 : 3.0);
+        matches.past_observations.surfaces.push_back(cell);
+      }
+    set_prior(matches);
+    for (const SurfaceCell& cell : matches.past_observations.surfaces) {
+      const bool came = cell.pixel.y() < 120 && (cell.pixel.x() > 160 || !left_stood_before);
+      EXPECT_EQ(cell.space_static_prior < 1.0f, came) << left_stood_before << ": " << cell.pixel.transpose();
+    }
+  }
+}
+
 // A body 0.4 m before the wall adjoins it: 2.75 · 20 / 300 · 2.6 m = 0.48 m. The views are 0.4, 0.8 and 1.2 s old, none
 // of them 2.2 s. Those of the earlier half know the wall, which stays static; the newest alone would not do.
 TEST_F(SpaceSearchTest, AtTheBeginningTheOldestViewsTellTheRoomFromWhoCame) {
