@@ -81,6 +81,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
       mask_prediction.forget();
       if (status != Status::ok) reset();
       frame = with_gray(host_frame, gray_);
+      if (frame.depth.empty()) frame.depth = DepthView();  // no stage reads a size without data
       if (status == Status::ok) {
         status = judge(frame);
         if (pixels_.empty()) status = Status::no_keypoints;  // the stages went on by corners of their own

@@ -92,6 +92,10 @@ struct Matches {
   /// the image; of the host's features where `host_supports`.
   std::size_t first_support() const noexcept { return host_supports ? 0 : host_count; }
 
+  /// The first feature whose flow tells how its surroundings move: of the matcher's own corners, spread over the image;
+  /// of the host's features where it has none.
+  std::size_t first_flow() const noexcept { return size() > host_count ? host_count : 0; }
+
   bool matched(std::size_t i) const noexcept {
     return state[i] == MatchState::matched || state[i] == MatchState::near_edge;
   }

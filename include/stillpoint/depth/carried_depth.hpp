@@ -100,7 +100,7 @@ class CarriedDepth {
     const span<Corner> corners = workspace.take<Corner>(matches.size());
     const ImageView& image = as_it_came.depth.image;
     std::size_t count = 0;
-    for (std::size_t i = matches.first_support(); i < matches.size(); ++i) {
+    for (std::size_t i = matches.first_flow(); i < matches.size(); ++i) {
       if (!matches.matched(i)) continue;
       const Vector2f here = matches.current.pixel[i];
       const Vector2f to_source = static_cast<float>(frames) * (matches.reference.pixel[i] - here);

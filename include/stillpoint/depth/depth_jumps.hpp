@@ -37,14 +37,21 @@ void for_each_depth_jump(const DepthView& depth, int rows, Visit&& visit) {
   }
 }
 
-/// Where depth changes most within a jump, half way between two pixels of a row; a pixel without depth counts as 0.
+/// Where depth changes most within a jump, half way between two pixels of a row. A hole there counts as the farther
+/// side: what the sensor can't see is behind the nearer surface, which ends where the hole begins.
 /// @param u  in the middle of what was compared
 inline float depth_jump_at(const DepthView& depth, int u, int v) noexcept {
   constexpr int kHalf_px = kDepthJumpReach_px / 2;
-  float greatest_m = -1.0f;
+  const float farther_m = std::max(depth.metres(u - kHalf_px, v), depth.metres(u + kHalf_px, v));
+  const auto depth_or_farther_m = [&](int x) {
+    const float there_m = depth.metres(x, v);
+    return there_m > 0.0f ? there_m : farther_m;
+  };
+  float greatest_m = -1.0f, before_m = depth_or_farther_m(u - kHalf_px);
   int right = u;
   for (int x = u - kHalf_px + 1; x <= u + kHalf_px; ++x) {
-    const float step_m = std::abs(depth.metres(x, v) - depth.metres(x - 1, v));
+    const float here_m = depth_or_farther_m(x), step_m = std::abs(here_m - before_m);
+    before_m = here_m;
     if (step_m <= greatest_m) continue;
     greatest_m = step_m;
     right = x;

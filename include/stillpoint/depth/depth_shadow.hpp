@@ -106,8 +106,8 @@ class DepthShadow {
     int all = 0, most = 0;
     double bins = 0;
     for (const int count : jumps) all += count;
-    for (std::size_t b = 1; b + 1 < jumps.size(); ++b) {
-      const int below = b > 1 ? jumps[b - 1] : 0;  // the first bin: jumps without a hole
+    for (std::size_t b = 1; b + 2 < jumps.size(); ++b) {  // not the last, which holds any that is wider
+      const int below = b > 1 ? jumps[b - 1] : 0;         // the first bin: jumps without a hole
       const int count = below + jumps[b] + jumps[b + 1];
       if (count <= most) continue;
       most = count;

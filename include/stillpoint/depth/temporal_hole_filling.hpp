@@ -81,7 +81,7 @@ class TemporalHoleFilling {
     if (!(filled_at_s_ == current.timestamp_s)) return current.depth;
     const Workspace::Scope scope(workspace);
     const span<const Vector2f> pixel = matches.current.pixel;
-    const auto is_corner = [&](std::size_t i) { return i >= matches.first_support() && matches.matched(i); };
+    const auto is_corner = [&](std::size_t i) { return i >= matches.first_flow() && matches.matched(i); };
     const PixelGrid corners(pixel, matches.pixel_scale * kFlowReach_px, workspace, is_corner);
     const DepthScale to_depth(current.gray, current.depth.image);
     for (std::size_t i = 0; i < matches.size(); ++i) {

@@ -65,13 +65,15 @@ class ProvidedMatches {
   void match(const FrameView& reference, const FrameView& current, Matches& matches) {
     if (!(last_time_s_ == reference.timestamp_s)) tracks_.reset();
     last_time_s_ = current.timestamp_s;
-    for (std::size_t i = 0; i < matches.host_count && reference_pixels.size() == matches.host_count; ++i) {
-      const Vector2f pixel = matches.current.pixel[i], before = reference_pixels[i];
+    const bool has_tracks = reference_pixels.size() == matches.host_count;
+    for (std::size_t i = 0; i < matches.host_count; ++i) {
+      const Vector2f pixel = matches.current.pixel[i];
       const float here = current.gray.border_distance_px(pixel.x(), pixel.y());
+      if (!(here >= 0.0f)) matches.state[i] = MatchState::outside;
+      if (!(here >= 0.0f) || !has_tracks) continue;
+      const Vector2f before = reference_pixels[i];
       const float there = reference.gray.border_distance_px(before.x(), before.y());
-      if (!(here >= 0.0f)) {
-        matches.state[i] = MatchState::outside;
-      } else if (there >= 0.0f) {
+      if (there >= 0.0f) {
         matches.reference.pixel[i] = before;
         matches.state[i] = found_at(std::min(here, there), options.border_px);
       }

@@ -86,14 +86,13 @@ class SpaceSearch {
   static constexpr double kSigmas = 4.0;      // … and so many standard deviations of both depths
   static constexpr double kMostCame = 0.6;    // share of the surfaces: people hide half of a room, rarely more
   static constexpr double kSettled_s = 2.2;   // what was there so long ago is no newcomer …
-  static constexpr double kEarlyShare =
-      0.5;  // … nor, while less is remembered, this share of it ago, unless more came then
+  static constexpr double kEarlyShare = 0.5;  // … nor, while less is remembered, this share of it ago …
   static constexpr float kFreeSpaceStaticPrior = 0.05f;  // as after some frames of motion
   static constexpr int kSpreadCells = 12;                // half of an image's width
   static constexpr double kNearest_m = 0.1;
 
-  static constexpr double kMostArrivals = 0.75;      // of those who came had come …
-  static constexpr std::size_t kFewestArrivals = 5;  // … as soon as so many came
+  static constexpr double kMostArrivals = 0.75;      // … unless this share of those who came came later …
+  static constexpr std::size_t kFewestArrivals = 5;  // … and they are so many cells
 
   /// Seconds since the oldest view that saw it in its place; 0: none did.
   struct StoodFor {

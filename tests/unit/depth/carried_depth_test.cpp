@@ -152,14 +152,14 @@ TEST_F(CarriedDepthTest, TheNearestCornersAreAsked) {
   EXPECT_EQ(carried().metres(106, 60), 1.0f);
 }
 
-// A host's features with a place in the last frame count where it brings them, and only there.
-TEST_F(CarriedDepthTest, TheHostsFeaturesCountWhereTheyAreTheCorners) {
+// A host's features with a place in the last frame count where the matcher has no corners of its own.
+TEST_F(CarriedDepthTest, TheHostsFeaturesCountWhereThereAreNoCorners) {
   board_corners();
   wall_corners();
   matches_.host_count = matches_.size();
-  EXPECT_EQ(carried().metres(105, 60), 3.0f);
-  matches_.host_supports = true;
   EXPECT_EQ(carried().metres(105, 60), 1.0f);
+  corner(20, 20, 0);
+  EXPECT_EQ(carried().metres(105, 60), 3.0f) << "one corner, far away";
 }
 
 // A hole of 20 px, filled from the last frame: 10 px of it get what was measured beside it; to the others no corner

@@ -78,6 +78,14 @@ TEST_F(DepthShadowTest, HolesOfAnyWidthAreNoShadows) {
   EXPECT_EQ(shadow().farther_m({310, 100}), 0.0);
 }
 
+// 70 to 150 px: baselines of 0.28 to 0.6 m, all in the bin of what is too wide to be measured.
+TEST_F(DepthShadowTest, WideHolesOfAnyWidthAreNoShadowsEither) {
+  Random random(1);
+  for (int v = 0; v < 480; ++v) depth_.row(v).colRange(320, 370 + static_cast<int>(random.index(80))).setTo(0.0);
+  EXPECT_EQ(shadow().baseline_on_left_m(), 0.0);
+  EXPECT_EQ(shadow().farther_m({310, 100}), 0.0);
+}
+
 TEST_F(DepthShadowTest, MostJumpsMustHaveOne) {
   depth_(cv::Rect(300, 0, 20, 230)).setTo(2.0);
   EXPECT_NEAR(shadow().baseline_on_left_m(), 0.08, 1e-9) << "29 of 60 rows have none";

@@ -69,6 +69,12 @@ TEST_F(ProvidedMatchesTest, NothingOutsideTheImageIsAMatch) {
   for (std::size_t i = 2; i < 5; ++i) EXPECT_EQ(matches.state[i], MatchState::lost) << i;
 }
 
+TEST_F(ProvidedMatchesTest, WithoutTracksWhatIsOutsideIsOutsideToo) {
+  const Matches matches = match({{-1, 20}, {kNaN, 20}, {1e30f, 20}, {20, 20}});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(matches.state[i], MatchState::outside) << i;
+  EXPECT_EQ(matches.state[3], MatchState::lost);
+}
+
 TEST_F(ProvidedMatchesTest, NearTheBorderFeaturesAreMarked) {
   const std::vector<Vector2f> pixels = {{9.9f, 30}, {10, 30}, {69.1f, 30}, {40, 49.1f}, {40, 49}};
   matcher_.reference_pixels = pixels;

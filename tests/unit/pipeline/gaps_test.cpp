@@ -113,6 +113,22 @@ TEST(Gaps, AnImageThatJumpsIsRefusedOrUnderstood) {
   }
 }
 
+// A host that fills the size in whether there is an image or not.
+TEST(Gaps, ASizeWithoutDataIsNoDepthImage) {
+  SyntheticSequence sequence(turning(0.0));
+  FrameFilter<> filter(sequence.camera());
+  SyntheticFrame frame;
+  for (int i = 0; i < 6; ++i) {
+    sequence.render(i, frame);
+    FrameView view = frame.view();
+    const ImageView& image = view.depth.image;
+    if (i > 1) view.depth.image = ImageView(nullptr, image.width, image.height, image.stride_bytes, image.format);
+    const Status status = filter.filter_frame(view, corners(frame)).status();
+    if (i > 0)
+      EXPECT_EQ(status, i < 5 ? Status::ok : Status::no_depth) << "a tenth of a second of holes is filled, " << i;
+  }
+}
+
 // Colour at 30 Hz, depth at 15.
 TEST(Gaps, EveryOtherFrameMayHaveNoDepthImage) {
   const synthetic::Scene scene = synthetic::walking_people(scene_run::small(60));
