@@ -80,19 +80,18 @@ class SpaceSearch {
 
  private:
   // Chosen on the kitchen recordings under all conditions of bench/conditions.sh and on Bonn's crowd.
-  static constexpr double kNewest_s = 0.3;    // views newer than this show who came still there
-  static constexpr double kMargin_m = 0.08;   // free is what was farther by this …
-  static constexpr double kDrift_m_s = 0.05;  // … and this much more for each second that poses are chained …
-  static constexpr double kSigmas = 4.0;      // … and so many standard deviations of both depths
-  static constexpr double kMostCame = 0.6;    // share of the surfaces: people hide half of a room, rarely more
-  static constexpr double kSettled_s = 2.2;   // what was there so long ago is no newcomer …
-  static constexpr double kEarlyShare = 0.5;  // … nor, while less is remembered, this share of it ago …
+  static constexpr double kNewest_s = 0.3;       // views newer than this show who came still there
+  static constexpr double kMargin_m = 0.08;      // free is what was farther by this …
+  static constexpr double kDrift_m_s = 0.05;     // … and this much more for each second that poses are chained …
+  static constexpr double kSigmas = 4.0;         // … and so many standard deviations of both depths
+  static constexpr double kMostCame = 0.6;       // share of the surfaces: people hide half of a room, rarely more
+  static constexpr double kSettled_s = 2.2;      // what was there so long ago is no newcomer …
+  static constexpr double kEarlyShare = 0.5;     // … nor, while less is remembered, this share of it ago …
+  static constexpr double kComeSince = 0.75;     // … if this share of what came has come since
+  static constexpr std::size_t kFewestCame = 5;  // cells that tell when
   static constexpr float kFreeSpaceStaticPrior = 0.05f;  // as after some frames of motion
   static constexpr int kSpreadCells = 12;                // half of an image's width
   static constexpr double kNearest_m = 0.1;
-
-  static constexpr double kMostArrivals = 0.75;      // … unless this share of those who came came later …
-  static constexpr std::size_t kFewestArrivals = 5;  // … and they are so many cells
 
   /// Seconds since the oldest view that saw it in its place; 0: none did.
   struct StoodFor {
@@ -106,16 +105,16 @@ class SpaceSearch {
     return std::min(kSettled_s, kEarlyShare * (timestamp_s - history.back(history.size()).timestamp_s));
   }
 
-  /// Who came that long ago: what was first seen later may have come along, however long it has stood since. An arm
-  /// that came into view two seconds ago belongs to a body whose place was free before. 0 where hardly anything came.
+  /// How long ago the others came: what was first seen later may have come along, however long it has stood since. A
+  /// face that came into view two seconds ago belongs to a body whose place was free before. 0 where hardly any came.
   /// @param free_ago_s  of each cell, since the newest view that saw through it; 0: none did
   static double came_ago_s(span<const double> free_ago_s, Workspace& workspace) {
     const Workspace::Scope scope(workspace);
     const span<double> came = workspace.take<double>(free_ago_s.size());
     const auto end = std::copy_if(free_ago_s.begin(), free_ago_s.end(), came.begin(), [](double s) { return s > 0; });
     const auto count = static_cast<std::size_t>(end - came.begin());
-    if (count < kFewestArrivals) return 0.0;
-    const auto most = came.begin() + static_cast<std::ptrdiff_t>(kMostArrivals * static_cast<double>(count - 1));
+    if (count < kFewestCame) return 0.0;
+    const auto most = came.begin() + static_cast<std::ptrdiff_t>(kComeSince * static_cast<double>(count - 1));
     std::nth_element(came.begin(), most, end);
     return *most;
   }
