@@ -124,8 +124,8 @@ TEST(Gaps, ASizeWithoutDataIsNoDepthImage) {
     const ImageView& image = view.depth.image;
     if (i > 1) view.depth.image = ImageView(nullptr, image.width, image.height, image.stride_bytes, image.format);
     const Status status = filter.filter_frame(view, corners(frame)).status();
-    if (i > 0)
-      EXPECT_EQ(status, i < 5 ? Status::ok : Status::no_depth) << "a tenth of a second of holes is filled, " << i;
+    if (i == 0) continue;
+    EXPECT_EQ(status, i < 5 ? Status::ok : Status::no_depth) << "a tenth of a second of holes is filled, " << i;
   }
 }
 
