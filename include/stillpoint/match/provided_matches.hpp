@@ -69,8 +69,11 @@ class ProvidedMatches {
     for (std::size_t i = 0; i < matches.host_count; ++i) {
       const Vector2f pixel = matches.current.pixel[i];
       const float here = current.gray.border_distance_px(pixel.x(), pixel.y());
-      if (!(here >= 0.0f)) matches.state[i] = MatchState::outside;
-      if (!(here >= 0.0f) || !has_tracks) continue;
+      if (!(here >= 0.0f)) {
+        matches.state[i] = MatchState::outside;
+        continue;
+      }
+      if (!has_tracks) continue;
       const Vector2f before = reference_pixels[i];
       const float there = reference.gray.border_distance_px(before.x(), before.y());
       if (there >= 0.0f) {

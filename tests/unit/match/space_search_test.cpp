@@ -96,18 +96,17 @@ class SpaceSearchTest : public testing::Test {
   SurfaceCell cell(double depth_m, int others) {
     Matches matches;
     matches.begin(std::vector<Vector2f>());
-    SurfaceCell asked;
-    asked.pixel = Vector2f(160, 120);
-    asked.point = camera_.back_project({160, 120}, depth_m);
-    matches.past_observations.surfaces.push_back(asked);
-    for (int k = 0; k < others; ++k) {
-      SurfaceCell wall;
-      wall.pixel = Vector2f(40.0f + 20.0f * static_cast<float>(k), 60.0f);
-      wall.point = camera_.back_project(wall.pixel.cast<double>(), 3.0);
-      matches.past_observations.surfaces.push_back(wall);
-    }
+    add_cell(160, 120, depth_m, matches);
+    for (int k = 0; k < others; ++k) add_cell(40 + 20 * k, 60, 3.0, matches);
     set_prior(matches);
     return matches.past_observations.surfaces[0];
+  }
+
+  void add_cell(int u, int v, double depth_m, Matches& matches) const {
+    SurfaceCell cell;
+    cell.pixel = Vector2f(static_cast<float>(u), static_cast<float>(v));
+    cell.point = camera_.back_project(cell.pixel.cast<double>(), depth_m);
+    matches.past_observations.surfaces.push_back(cell);
   }
 
   void set_prior(Matches& matches) {
@@ -168,17 +167,11 @@ TEST_F(SpaceSearchTest, WhatNoViewKnowsBelongsToTheSurfaceBesideIt) {
   for (int k = 0; k < 10; ++k) history_.push(view_of(gray_, depth_, 0.4 * k), Pose::Identity());
   Matches matches;
   matches.begin(std::vector<Vector2f>());
-  const auto add_cell = [&](float u, float v, double depth_m) {
-    SurfaceCell cell;
-    cell.pixel = Vector2f(u, v);
-    cell.point = camera_.back_project(cell.pixel.cast<double>(), depth_m);
-    matches.past_observations.surfaces.push_back(cell);
-  };
   for (int u = 10; u < kWidth; u += kStep_px)
-    if (u / kStep_px != 2) add_cell(static_cast<float>(u), 110, 2.0);
+    if (u / kStep_px != 2) add_cell(u, 110, 2.0, matches);
   const std::size_t body_count = matches.past_observations.surfaces.size();
   for (int v : {170, 190, 210, 230})
-    for (int u = 10; u < kWidth; u += kStep_px) add_cell(static_cast<float>(u), static_cast<float>(v), 3.0);
+    for (int u = 10; u < kWidth; u += kStep_px) add_cell(u, v, 3.0, matches);
   matches.resize(1);  // a support corner
   matches.current.pixel[0] = Vector2f(75, 110);
   matches.current.depth_m[0] = 2.0;
@@ -210,12 +203,7 @@ TEST_F(SpaceSearchTest, WhatWasFirstSeenAfterTheOthersCameMayHaveComeWithThem) {
     Matches matches;
     matches.begin(std::vector<Vector2f>());
     for (const int v : {110, 170, 190, 210, 230})
-      for (int u = 10; u < kWidth; u += kStep_px) {
-        SurfaceCell cell;
-        cell.pixel = Vector2f(static_cast<float>(u), static_cast<float>(v));
-        cell.point = camera_.back_project(cell.pixel.cast<double>(), v == 110 ? 2.0 : 3.0);
-        matches.past_observations.surfaces.push_back(cell);
-      }
+      for (int u = 10; u < kWidth; u += kStep_px) add_cell(u, v, v == 110 ? 2.0 : 3.0, matches);
     set_prior(matches);
     for (const SurfaceCell& cell : matches.past_observations.surfaces) {
       const bool came = cell.pixel.y() < 120 && (cell.pixel.x() > 160 || !left_stood_before);
@@ -238,12 +226,7 @@ TEST_F(SpaceSearchTest, AtTheBeginningTheOldestViewsTellTheRoomFromWhoCame) {
     Matches matches;
     matches.begin(std::vector<Vector2f>());
     for (const int v : {110, 130, 150})
-      for (int u = 10; u < kWidth; u += kStep_px) {
-        SurfaceCell cell;
-        cell.pixel = Vector2f(static_cast<float>(u), static_cast<float>(v));
-        cell.point = camera_.back_project(cell.pixel.cast<double>(), v == 110 ? 2.6 : 3.0);
-        matches.past_observations.surfaces.push_back(cell);
-      }
+      for (int u = 10; u < kWidth; u += kStep_px) add_cell(u, v, v == 110 ? 2.6 : 3.0, matches);
     set_prior(matches);
     for (const SurfaceCell& cell : matches.past_observations.surfaces) {
       const bool is_static = cell.pixel.y() > 110 && early_ones_saw_the_wall;
