@@ -178,7 +178,7 @@ class FrameFilter : private PolicyContract<Policies>, private StageFit<Policies>
     timings.run(Stage::prior, [&] { prior.regions(frame, regions); });
     timings.run(Stage::match, [&] {
       rough_motion = align(matcher, reference, frame, expected, camera, depth_noise);
-      frame.depth = depth_registration.undo(frame, rough_motion, camera);
+      frame.depth = depth_registration.undo(reference, frame, rough_motion, camera);
       frame.depth = hole_filling.fill(reference, frame, rough_motion, camera, depth_noise);
       matcher.match(reference, frame, matches);
       frame.depth = fill_along_flow(hole_filling, reference, frame, matches, depth_noise, workspace_);

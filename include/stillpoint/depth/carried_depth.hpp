@@ -29,16 +29,16 @@ namespace stillpoint {
 /// corners depth stays as it is. Keeps its buffer. docs/design/sweeps.md, "Depth of another time".
 class CarriedDepth {
  public:
-  /// @param as_it_came  its depth is of `frames` intervals before
+  /// @param as_it_came  its depth is older by `delay`, in times since the reference frame
   /// @param undone      that depth, moved as if all were static
   /// @param current     the depth image to mend: `undone`, some of its holes filled
   /// @param matches     where corners were in the reference frame
   /// @return  float metres; valid until the next call. O(pixels).
-  DepthView operator()(const FrameView& as_it_came, const DepthView& undone, const DepthView& current, double frames,
+  DepthView operator()(const FrameView& as_it_came, const DepthView& undone, const DepthView& current, double delay,
                        const Matches& matches, Workspace& workspace) {
     const Workspace::Scope scope(workspace);
     const DepthScale to_depth(as_it_came.gray, current.image);
-    const span<const Corner> corners = find_corners(as_it_came, frames, to_depth, matches, workspace);
+    const span<const Corner> corners = find_corners(as_it_came, delay, to_depth, matches, workspace);
     const span<Vector2f> pixels = workspace.take<Vector2f>(corners.size(), Vector2f::Zero());
     for (std::size_t c = 0; c < corners.size(); ++c) pixels[c] = corners[c].pixel;
     const float reach_px = matches.pixel_scale * kReach_px;
@@ -95,7 +95,7 @@ class CarriedDepth {
     std::size_t count_ = 0;
   };
 
-  static span<const Corner> find_corners(const FrameView& as_it_came, double frames, const DepthScale& to_depth,
+  static span<const Corner> find_corners(const FrameView& as_it_came, double delay, const DepthScale& to_depth,
                                          const Matches& matches, Workspace& workspace) {
     const span<Corner> corners = workspace.take<Corner>(matches.size());
     const ImageView& image = as_it_came.depth.image;
@@ -103,7 +103,7 @@ class CarriedDepth {
     for (std::size_t i = matches.first_flow(); i < matches.size(); ++i) {
       if (!matches.matched(i)) continue;
       const Vector2f here = matches.current.pixel[i];
-      const Vector2f to_source = static_cast<float>(frames) * (matches.reference.pixel[i] - here);
+      const Vector2f to_source = static_cast<float>(delay) * (matches.reference.pixel[i] - here);
       const Vector2f source = to_depth(here + to_source);
       if (!(image.border_distance_px(source.x(), source.y()) >= 0.0f)) continue;
       const float depth_m = as_it_came.depth.metres(rounded(source.x()), rounded(source.y()));

@@ -30,10 +30,10 @@
 
 namespace stillpoint {
 
-/// Measures how late depth is, in intervals between frames, and by how many pixels it is shifted, and undoes both: the
-/// edges of the depth image are moved along with what they belong to; with the right delay and shift they lie on edges
-/// of the gray image (`RegistrationFit`). Static ones move with the camera, those beside dynamic features as these do;
-/// for the delay the clearer of the two answers counts, for the shift that of the moving edges, where it does harm.
+/// Measures how late depth is, and by how many pixels it is shifted, and undoes both: the edges of the depth image are
+/// moved along with what they belong to; with the right delay and shift they lie on edges of the gray image
+/// (`RegistrationFit`). Static ones move with the camera, those beside dynamic features as these do; for the delay the
+/// clearer of the two answers counts, for the shift that of the moving edges, where it does harm.
 /// People who walk tell both within a few frames, a camera that moves evenly never. docs/design/sweeps.md, "Depth of
 /// another time", "Depth that lies beside its image".
 class DepthRegistration {
@@ -42,19 +42,21 @@ class DepthRegistration {
 
   /// The depth image at the image's time and place, as if all were static: the frame's own, unless it is known to be of
   /// another.
-  /// @param current_from_reference  roughly, from the last frame to this one
+  /// @param current_from_reference  roughly
   /// @return  valid until the next call
   template <class Camera>
-  DepthView undo(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
-    if (!is_enabled || frame.depth.empty()) return frame.depth;
-    in_place_ = frame;
+  DepthView undo(const FrameView& reference, const FrameView& current, const Pose& current_from_reference,
+                 const Camera& camera) {
+    if (!is_enabled || current.depth.empty()) return current.depth;
+    in_place_ = current;
     if (is_shifted()) {
-      const DepthScale to_depth(frame.gray, frame.depth.image);
-      in_place_.depth = shifted_(frame.depth, rounded(static_cast<float>(right_px_) * to_depth.x),
+      const DepthScale to_depth(current.gray, current.depth.image);
+      in_place_.depth = shifted_(current.depth, rounded(static_cast<float>(right_px_) * to_depth.x),
                                  rounded(static_cast<float>(down_px_) * to_depth.y));
     }
     undone_ = in_place_.depth;
-    if (frames_ != 0.0) undone_ = moved_(in_place_, scaled(current_from_reference, frames_), camera);
+    const double elapsed_s = current.timestamp_s - reference.timestamp_s;
+    if (delay_s_ != 0.0) undone_ = moved_(in_place_, scaled(current_from_reference, delay_s_ / elapsed_s), camera);
     return undone_;
   }
 
@@ -65,8 +67,8 @@ class DepthRegistration {
   /// @return  the depth image at the image's time; valid until the next call
   DepthView undo_along_flow(const FrameView& as_it_came, const FrameView& current, const Matches& matches,
                             Workspace& workspace) {
-    if (!is_enabled || frames_ == 0.0 || as_it_came.depth.empty()) return current.depth;
-    return carried_(in_place_, undone_, current.depth, frames_, matches, workspace);
+    if (!is_enabled || delay_s_ == 0.0 || as_it_came.depth.empty()) return current.depth;
+    return carried_(in_place_, undone_, current.depth, delay_s_ / matches.elapsed_s, matches, workspace);
   }
 
   /// Measures at every second frame.
@@ -78,9 +80,11 @@ class DepthRegistration {
   void observe(const FrameView& frame, const Matches& matches, span<const Label> labels, const Motion& motion,
                const Camera& camera) {
     if (!is_enabled) return reset();  // what was found is of a sensor that nobody watches any more
-    if (!motion.metric || frame.depth.empty() || frame_++ % kLookEvery != 0) return;
-    find_dynamic(matches, labels);
-    find_static_jumps(frame, motion.current_from_reference, camera);
+    if (!motion.metric || frame.depth.empty() || !(matches.elapsed_s > 0.0) || frame_++ % kLookEvery != 0) return;
+    if (interval_s_ == 0.0) interval_s_ = matches.elapsed_s;
+    const double interval = interval_s_ / matches.elapsed_s;
+    find_dynamic(matches, labels, static_cast<float>(interval));
+    find_static_jumps(frame, scaled(motion.current_from_reference, interval), camera);
     if (jumps_.size() >= kFewestJumps && camera_moves(frame.gray.width)) of_static_.add(frame.gray, jumps_);
     find_moving_jumps(frame);
     of_moving_.add(frame.gray, jumps_);
@@ -89,9 +93,9 @@ class DepthRegistration {
     decide_shift(of_moving);
   }
 
-  /// By how many intervals between frames depth is older than its image; below 0, newer. 0: less than half an interval,
-  /// or not known, or not enabled.
-  double frames() const noexcept { return is_enabled ? frames_ : 0.0; }
+  /// By how much depth is older than its image, seconds; below 0, newer. 0: less than half the time between frames, or
+  /// not known, or not enabled.
+  double delay_s() const noexcept { return is_enabled ? delay_s_ : 0.0; }
 
   /// By how much the depth image is moved, to the right and down, in pixels of the gray image; 0: not known, or not
   /// enabled.
@@ -100,13 +104,13 @@ class DepthRegistration {
 
   Warnings warnings() const noexcept {
     Warnings warnings;
-    if (frames() != 0.0) warnings.add(Warning::depth_unsynchronised);
+    if (delay_s() != 0.0) warnings.add(Warning::depth_unsynchronised);
     if (is_enabled && is_shifted()) warnings.add(Warning::depth_shifted);
     return warnings;
   }
 
   void reset() noexcept {
-    frames_ = 0.0;
+    interval_s_ = delay_s_ = 0.0;
     right_px_ = down_px_ = 0;
     frame_ = 0;
     of_static_.reset();
@@ -122,7 +126,7 @@ class DepthRegistration {
   static constexpr float kMovingDeviations = 5.0f;   // … of movers' jumps: they are of few objects …
   static constexpr float kShiftDeviations = 15.0f;   // … and for a shift: a delay looks like one at first …
   static constexpr float kStill = 0.03f;             // … and what was found holds while it is better by this
-  static constexpr double kLeastDelay = 0.5;         // less is left as it is …
+  static constexpr double kLeastDelay = 0.5;         // of an interval: less is left as it is …
   static constexpr double kLeastHeld = 0.25;         // … unless more was found before
   static constexpr float kReachShare = 0.1f;         // of the width: so near to a dynamic feature …
   static constexpr double kSameObject_m = 0.3;       // … and about as deep, a jump is that object's …
@@ -131,20 +135,21 @@ class DepthRegistration {
 
   struct DynamicFeature {
     Vector2f pixel;
-    Vector2f flow;  ///< NaN where it is not matched
+    Vector2f flow;  ///< within `interval_s_`; NaN where it is not matched
     double depth_m;
   };
 
   static Vector2f unknown() { return Vector2f::Constant(std::numeric_limits<float>::quiet_NaN()); }
 
-  void find_dynamic(const Matches& matches, span<const Label> labels) {
+  /// @param interval  `interval_s_` over the time since the last frame
+  void find_dynamic(const Matches& matches, span<const Label> labels, float interval) {
     const FrameFeatures& now = matches.current;
     dynamic_.clear();
     dynamic_.reserve(labels.size());
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (labels[i].keep || !is_finite(now.pixel[i])) continue;
       DynamicFeature feature{now.pixel[i], unknown(), now.depth_m[i]};
-      if (matches.matched(i)) feature.flow = now.pixel[i] - matches.reference.pixel[i];
+      if (matches.matched(i)) feature.flow = interval * (now.pixel[i] - matches.reference.pixel[i]);
       dynamic_.push_back(feature);
     }
   }
@@ -170,8 +175,9 @@ class DepthRegistration {
     return flow;
   }
 
+  /// @param motion  of the camera within `interval_s_`
   template <class Camera>
-  void find_static_jumps(const FrameView& frame, const Pose& current_from_reference, const Camera& camera) {
+  void find_static_jumps(const FrameView& frame, const Pose& motion, const Camera& camera) {
     jumps_.clear();
     jumps_.reserve(static_cast<std::size_t>(2 * kRows * frame.depth.image.width / kDepthJumpReach_px));
     const DepthScale to_depth(frame.gray, frame.depth.image);
@@ -180,7 +186,7 @@ class DepthRegistration {
       const Vector2f pixel = to_depth.inverse({depth_jump_at(frame.depth, u, v), static_cast<float>(v)});
       if (is_dynamic(pixel, static_cast<double>(nearer_m), reach_px)) return;
       const Vector3d before = point_at_depth(camera, pixel, static_cast<double>(nearer_m));
-      const Vector3d after = current_from_reference * before;
+      const Vector3d after = motion * before;
       if (!(after.z() > 0.1 * before.z())) return;
       // Both by the lens: beyond its range `undistort` has no inverse.
       const Vector2d flow = camera.distort(camera.project(after)) - camera.distort(camera.project(before));
@@ -213,9 +219,9 @@ class DepthRegistration {
     const bool moving_is_clearer = of_moving.deviations > of_static.deviations;
     const RegistrationFit::Best& best = moving_is_clearer ? of_moving : of_static;
     const float deviations = moving_is_clearer ? kMovingDeviations : kDeviations;
-    const bool is_clear = frames_ != 0.0 ? best.gain > kStill : best.gain > kClearly && best.deviations > deviations;
-    const double least = frames_ != 0.0 ? kLeastHeld : kLeastDelay;
-    frames_ = is_clear && best.is_inside && std::abs(best.frames) >= least ? best.frames : 0.0;
+    const bool is_clear = delay_s_ != 0.0 ? best.gain > kStill : best.gain > kClearly && best.deviations > deviations;
+    const double least = delay_s_ != 0.0 ? kLeastHeld : kLeastDelay;
+    delay_s_ = is_clear && best.is_inside && std::abs(best.intervals) >= least ? best.intervals * interval_s_ : 0.0;
   }
 
   void decide_shift(const RegistrationFit::Best& best) noexcept {
@@ -229,7 +235,8 @@ class DepthRegistration {
   std::vector<DynamicFeature> dynamic_;
   std::vector<FlowingJump> jumps_;
   std::size_t frame_ = 0;
-  double frames_ = 0.0;
+  double interval_s_ = 0.0;  // delays are searched in quarters of it: the time between the frames looked at first
+  double delay_s_ = 0.0;
   MovedDepth moved_;
   int right_px_ = 0, down_px_ = 0;
   ShiftedDepth shifted_;

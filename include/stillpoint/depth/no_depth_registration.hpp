@@ -17,8 +17,8 @@ namespace stillpoint {
 /// The null stage: each depth image lies on its image.
 struct NoDepthRegistration {
   template <class Camera>
-  DepthView undo(const FrameView& frame, const Pose&, const Camera&) const noexcept {
-    return frame.depth;
+  DepthView undo(const FrameView& /*reference*/, const FrameView& current, const Pose&, const Camera&) const noexcept {
+    return current.depth;
   }
   template <class Camera>
   void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const Camera&) const noexcept {}

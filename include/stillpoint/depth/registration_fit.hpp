@@ -20,7 +20,7 @@ namespace stillpoint {
 /// A jump of depth, and how the surface before it moves.
 struct FlowingJump {
   Vector2f pixel = Vector2f::Zero();  ///< of the gray image
-  Vector2f flow = Vector2f::Zero();   ///< since the last frame, pixels
+  Vector2f flow = Vector2f::Zero();   ///< within an interval, pixels
 };
 
 /// Moves jumps of depth by nine delays along their flow, and by 63 shifts, and sums up the gray steps that they come to
@@ -29,7 +29,7 @@ struct FlowingJump {
 class RegistrationFit {
  public:
   struct Best {
-    double frames = 0.0;            ///< the delay, in intervals between frames
+    double intervals = 0.0;         ///< the delay
     float gain = 0.0f;              ///< by what share its gray steps are more than those of no delay
     float deviations = 0.0f;        ///< that, times the square root of the number of jumps seen
     int right_px = 0, down_px = 0;  ///< the shortest of the best shifts at that delay, of depth, gray pixels
@@ -73,7 +73,7 @@ class RegistrationFit {
     int delayed = kNoDelay;
     for (int d = 0; d < kDelays; ++d)
       if (fit(d) > fit(delayed)) delayed = d;
-    best.frames = delay(delayed);
+    best.intervals = delay(delayed);
     best.gain = fit(delayed) / fit(kNoDelay) - 1.0f;
     best.deviations = best.gain * std::sqrt(jumps_);
     const int shift = least_shift(delayed);
@@ -90,8 +90,8 @@ class RegistrationFit {
  private:
   static constexpr std::size_t kMostJumps = 400;      // of a frame; more are thinned out
   static constexpr float kFewestJumps = 20.0f;        // of all frames
-  static constexpr int kDelays = 9;                   // from one frame too new to one too old …
-  static constexpr double kDelayStep = 0.25;          // … of frames
+  static constexpr int kDelays = 9;                   // from one interval too new to one too old …
+  static constexpr double kDelayStep = 0.25;          // … of intervals
   static constexpr int kNoDelay = kDelays / 2;        // the one in the middle
   static constexpr int kShifts_x = 9, kShifts_y = 7;  // 8 px and 6 px to each side, where the image has 640 columns
   static constexpr int kNoShift = kShifts_x * kShifts_y / 2;

@@ -44,7 +44,7 @@ template <class P> struct is_depth_lookup<P, std::enable_if_t<detail::returns<do
 template <class P, class Camera, class = void> struct is_depth_registration : std::false_type {};
 template <class P, class Camera> struct is_depth_registration<P, Camera, std::void_t<
     std::enable_if_t<detail::returns<DepthView, decltype(std::declval<P&>().undo(std::declval<const FrameView&>(),
-    std::declval<const Pose&>(), std::declval<const Camera&>()))>>,
+    std::declval<const FrameView&>(), std::declval<const Pose&>(), std::declval<const Camera&>()))>>,
     decltype(std::declval<P&>().observe(std::declval<const FrameView&>(), std::declval<const Matches&>(),
     std::declval<span<const Label>>(), std::declval<const Motion&>(), std::declval<const Camera&>())),
     std::enable_if_t<detail::returns<Warnings, decltype(std::declval<const P&>().warnings())>>,
@@ -183,11 +183,11 @@ struct PolicyContract {
   static_assert(is_depth_lookup<typename Policies::DepthLookup>::value,
                 "stillpoint: Policies::DepthLookup must offer double at(const DepthView&, const Vector2f& depth_pixel) "
                 "const; see depth/depth_lookup.hpp");
-  static_assert(
-      is_depth_registration<DepthRegistrationOf<Policies>, Camera>::value,
-      "stillpoint: Policies::DepthRegistration must offer DepthView undo(const FrameView&, const Pose&, const "
-      "Camera&), void observe(const FrameView&, const Matches&, span<const Label>, const Motion&, const "
-      "Camera&), Warnings warnings() const and void reset(); see depth/no_depth_registration.hpp");
+  static_assert(is_depth_registration<DepthRegistrationOf<Policies>, Camera>::value,
+                "stillpoint: Policies::DepthRegistration must offer DepthView undo(const FrameView& reference, const "
+                "FrameView& current, const Pose& current_from_reference, const Camera&), void observe(const "
+                "FrameView&, const Matches&, span<const Label>, const Motion&, const "
+                "Camera&), Warnings warnings() const and void reset(); see depth/no_depth_registration.hpp");
   static_assert(is_hole_filling<HoleFillingOf<Policies>, Camera, typename Policies::DepthNoise>::value,
                 "stillpoint: Policies::HoleFilling must offer DepthView fill(const FrameView& reference, const "
                 "FrameView& current, const Pose& current_from_reference, const Camera&, const DepthNoise&) and void "

@@ -55,10 +55,10 @@ class CarriedDepthTest : public testing::Test {
   DepthView as_it_came() const { return DepthView::millimetres(depth_.view()); }
 
   /// @param current  the static depth, some of its holes filled; as it came, where the camera stands
-  DepthView carried(const DepthView& current, double frames = 1.0) {
-    return carried_(FrameView(gray_.view(), as_it_came(), 0.0), as_it_came(), current, frames, matches_, workspace_);
+  DepthView carried(const DepthView& current, double delay = 1.0) {
+    return carried_(FrameView(gray_.view(), as_it_came(), 0.0), as_it_came(), current, delay, matches_, workspace_);
   }
-  DepthView carried(double frames = 1.0) { return carried(as_it_came(), frames); }
+  DepthView carried(double delay = 1.0) { return carried(as_it_came(), delay); }
 
   ImageBuffer gray_, depth_;
   Matches matches_;

@@ -36,6 +36,7 @@ Camera camera() { return Camera(kFocal_px, kFocal_px, 159.5, 29.5, kWidth, kHeig
 class DepthRegistrationTest : public testing::Test {
  protected:
   DepthRegistrationTest() {
+    matches_.elapsed_s = 1.0;
     for (double& left_px : left_px_) left_px = random_.uniform(20.0, kWidth - 40.0);
   }
 
@@ -45,14 +46,15 @@ class DepthRegistrationTest : public testing::Test {
     return false;
   }
 
-  /// Where the posts are at a time, which is counted in frames.
+  /// Where the posts are at a time; a frame is shown each second.
   static double swings(double time) { return 14.0 * std::sin(0.35 * time) + 5.0 * std::sin(0.8 * time); }
 
   /// Shows frames to `registration_`.
-  /// @param late   the depth image is of so many frames before
+  /// @param late   the depth image is of so many seconds before
   /// @param off_px  and lies so far to the right
   void observe(int frames, double late, double off_px = 0.0, const std::function<double(double)>& offset_px = swings) {
-    for (int i = 0; i < frames; ++i, ++frame_) {
+    for (int i = 0; i < frames; ++i) {
+      const int before = frame_ - static_cast<int>(matches_.elapsed_s);
       gray_.resize(kWidth, kHeight, PixelFormat::gray8);
       const double now_px = offset_px(frame_), then_px = offset_px(frame_ - late) + off_px;
       for (int v = 0; v < kHeight; ++v)
@@ -66,10 +68,12 @@ class DepthRegistrationTest : public testing::Test {
       motion.status = Status::ok;
       motion.metric = is_metric_;
       motion.current_from_reference =
-          make_pose(Matrix3d::Identity(), {(now_px - offset_px(frame_ - 1)) / kFocal_px, 0.0, 0.0});
-      move_features(static_cast<float>(now_px - offset_px(frame_ - 1)));
+          make_pose(Matrix3d::Identity(), {(now_px - offset_px(before)) / kFocal_px, 0.0, 0.0});
+      move_features(static_cast<float>(now_px - offset_px(before)));
       if (is_still_) motion.current_from_reference.setIdentity();
       registration_.observe(view(), matches_, labels_, motion, camera());
+      if (drops_) matches_.elapsed_s = 2.0;
+      frame_ += static_cast<int>(matches_.elapsed_s);
     }
   }
 
@@ -90,6 +94,13 @@ class DepthRegistrationTest : public testing::Test {
     for (Label& label : labels_) label.keep = false;
   }
 
+  /// Of the frame shown last.
+  /// @param motion  of the camera, roughly, within `elapsed_s`
+  DepthView undo(const Pose& motion, double elapsed_s = 1.0) {
+    const FrameView reference(gray_.view(), DepthView(), -elapsed_s);
+    return registration_.undo(reference, view(), motion, camera());
+  }
+
   FrameView view() const { return FrameView(gray_.view(), DepthView(depth_.view(), 1000.0), 0.0); }
 
   /// @param metre  in units of the depth image
@@ -107,6 +118,7 @@ class DepthRegistrationTest : public testing::Test {
   int frame_ = 0, shrink_ = 1;
   bool is_metric_ = true;
   bool is_still_ = false;  // the posts go by themselves
+  bool drops_ = false;     // every other frame, after the first
   Matches matches_;
   std::vector<Label> labels_;
   DepthRegistration registration_;
@@ -114,33 +126,47 @@ class DepthRegistrationTest : public testing::Test {
 
 TEST_F(DepthRegistrationTest, DepthOfItsImagesMomentHasNone) {
   observe(100, 0.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 TEST_F(DepthRegistrationTest, DepthOfTheFrameBeforeIsOneFrameLate) {
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 TEST_F(DepthRegistrationTest, OfHalfAFrameToo) {
   observe(80, 0.5);
-  EXPECT_EQ(registration_.frames(), 0.5);
+  EXPECT_EQ(registration_.delay_s(), 0.5);
+}
+
+// A dropped frame makes the motion between two frames larger, not the delay.
+TEST_F(DepthRegistrationTest, WhereFramesAreDroppedItIsTheSameTime) {
+  drops_ = true;
+  observe(80, 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
+}
+
+TEST_F(DepthRegistrationTest, NorDoMoversTellAnother) {
+  is_still_ = drops_ = true;
+  dynamic_features(1.0, MatchState::matched);
+  observe(80, 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 // By the velocity before, which is not that after.
 TEST_F(DepthRegistrationTest, DepthOfTheFrameAfterIsEarly) {
   observe(80, -1.0);
-  EXPECT_NEAR(registration_.frames(), -1.0, 0.25);
+  EXPECT_NEAR(registration_.delay_s(), -1.0, 0.25);
 }
 
 TEST_F(DepthRegistrationTest, AConstantShiftIsNoDelay) {
   observe(80, 0.0, 3.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 TEST_F(DepthRegistrationTest, NorDoesItHideOne) {
   observe(80, 1.0, 3.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 // With the camera's swings a delay makes a part of the shift good.
@@ -148,53 +174,53 @@ TEST_F(DepthRegistrationTest, AShiftBeyondWhatIsSearchedTellsNothing) {
   for (const double off_px : {5.0, 6.0, 8.0, -5.0, -7.0}) {
     registration_.reset();
     observe(80, 0.0, off_px);
-    EXPECT_EQ(registration_.frames(), 0.0) << off_px;
+    EXPECT_EQ(registration_.delay_s(), 0.0) << off_px;
   }
 }
 
 // Each delay looks like a shift then.
 TEST_F(DepthRegistrationTest, WhereTheCameraMovesEvenlyNobodyKnows) {
   observe(60, 1.0, 0.0, [](double time) { return 3.0 * time - 60.0; });
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 TEST_F(DepthRegistrationTest, WhereItStandsNobodyKnows) {
   observe(80, 1.0, 0.0, [](double) { return 0.0; });
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 TEST_F(DepthRegistrationTest, WhatIsFoundHoldsWhileTheCameraStands) {
   observe(80, 1.0);
   observe(400, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 TEST_F(DepthRegistrationTest, WhatIsMendedIsForgotten) {
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
   observe(400, 0.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 // Depth of half the size, 16 bit.
 TEST_F(DepthRegistrationTest, OfASmallerDepthImageToo) {
   shrink_ = 2;
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 TEST_F(DepthRegistrationTest, AMotionWithoutAScaleTellsNothing) {
   is_metric_ = false;
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 TEST_F(DepthRegistrationTest, AResetForgetsIt) {
   observe(80, 1.0);
   registration_.reset();
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
   observe(2, 1.0);
-  EXPECT_EQ(registration_.frames(), 0.0) << "nor does the next look bring it back";
+  EXPECT_EQ(registration_.delay_s(), 0.0) << "nor does the next look bring it back";
 }
 
 TEST_F(DepthRegistrationTest, AResetForgetsWhatMoversTold) {
@@ -203,7 +229,7 @@ TEST_F(DepthRegistrationTest, AResetForgetsWhatMoversTold) {
   observe(80, 1.0);
   registration_.reset();
   observe(1, 0.0, 0.0, [](double) { return 0.0; });
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 // The posts go by as if the camera moved, but are dynamic, and nobody knows how they moved: nothing is left that would
@@ -211,10 +237,10 @@ TEST_F(DepthRegistrationTest, AResetForgetsWhatMoversTold) {
 TEST_F(DepthRegistrationTest, WhatMovesByItselfTellsNothing) {
   dynamic_features(1.0, MatchState::lost);
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
   dynamic_features(2.0, MatchState::lost);  // of something behind the posts
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 // The camera stands, the posts swing by themselves.
@@ -223,20 +249,20 @@ TEST_F(DepthRegistrationTest, UnlessItIsKnownHow) {
   dynamic_features(1.0, MatchState::matched);
   for (Label& label : labels_) label.keep = true;
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 0.0) << "no dynamic feature";
+  EXPECT_EQ(registration_.delay_s(), 0.0) << "no dynamic feature";
   dynamic_features(1.0, MatchState::matched);
   for (std::size_t i = 0; i < matches_.size(); i += 2) matches_.state[i] = MatchState::lost;
   observe(60, 1.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 TEST_F(DepthRegistrationTest, WhatMovesFindsNoneWhereThereIsNone) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   observe(100, 0.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
   observe(100, 0.0, 3.0);
-  EXPECT_EQ(registration_.frames(), 0.0) << "shifted, not late";
+  EXPECT_EQ(registration_.delay_s(), 0.0) << "shifted, not late";
 }
 
 // Within 16 px, 5 % of the width.
@@ -246,10 +272,10 @@ TEST_F(DepthRegistrationTest, AnEdgeMovesWithFeaturesThatAreNear) {
   dynamic_features(1.0, MatchState::matched);
   for (std::size_t i = 0; i < matches_.size(); ++i) labels_[i].keep = matches_.current.pixel[i].x() > 110.0f;
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
   for (std::size_t i = 0; i < matches_.size(); ++i) labels_[i].keep = matches_.current.pixel[i].x() < 110.0f;
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 // What is found while somebody walks holds when they stand, while the memory still calls them dynamic: at no flow all
@@ -259,7 +285,7 @@ TEST_F(DepthRegistrationTest, WhatIsFoundOnMoversHoldsWhenTheyStand) {
   dynamic_features(1.0, MatchState::matched);
   observe(80, 1.0);
   observe(400, 1.0, 0.0, [at_px = swings(80)](double) { return at_px; });
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
 }
 
 // Of movers, by 3 px to the right: it is moved 3 px to the left again.
@@ -270,10 +296,10 @@ TEST_F(DepthRegistrationTest, WhatMovesTellsAShiftToo) {
   EXPECT_EQ(registration_.right_px(), -3);
   EXPECT_EQ(registration_.down_px(), 0);
   EXPECT_TRUE(registration_.warnings() == Warnings(Warning::depth_shifted));
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
   left_px_.fill(100.0);
   observe(1, 0.0, 3.0, [](double) { return 0.0; });  // the post is where the image has it, its depth 3 px beside
-  const DepthView undone = registration_.undo(view(), Pose::Identity(), camera());
+  const DepthView undone = undo(Pose::Identity());
   EXPECT_EQ(undone.metres(99, 30), 3.0f);
   EXPECT_EQ(undone.metres(100, 30), 1.0f);
   EXPECT_EQ(undone.metres(111, 30), 1.0f);
@@ -299,7 +325,7 @@ TEST_F(DepthRegistrationTest, AShiftAndADelay) {
   is_still_ = true;
   dynamic_features(1.0, MatchState::matched);
   observe(80, 1.0, 3.0);
-  EXPECT_EQ(registration_.frames(), 1.0);
+  EXPECT_EQ(registration_.delay_s(), 1.0);
   EXPECT_EQ(registration_.right_px(), -3);
   Warnings both = Warning::depth_shifted;
   both.add(Warning::depth_unsynchronised);
@@ -307,7 +333,7 @@ TEST_F(DepthRegistrationTest, AShiftAndADelay) {
   left_px_.fill(100.0);
   observe(1, 0.0, 3.0, [](double) { return 0.0; });
   FrameView frame = view();
-  frame.depth = registration_.undo(view(), Pose::Identity(), camera());
+  frame.depth = undo(Pose::Identity());
   matches_.begin({});
   matches_.resize(1);
   matches_.current.pixel = {Vector2f(116, 30)};
@@ -330,7 +356,7 @@ TEST_F(DepthRegistrationTest, AShiftOfASmallerDepthImage) {
   EXPECT_NEAR(registration_.right_px(), -2, 1);
   left_px_.fill(100.0);
   observe(1, 0.0, 2.0, [](double) { return 0.0; });
-  const DepthView undone = registration_.undo(view(), Pose::Identity(), camera());
+  const DepthView undone = undo(Pose::Identity());
   EXPECT_EQ(undone.metres(48, 15), 3.0f);
   EXPECT_EQ(undone.metres(50, 15), 1.0f);
 }
@@ -342,7 +368,7 @@ TEST_F(DepthRegistrationTest, SwitchedOffThereIsNoShift) {
   registration_.is_enabled = false;
   EXPECT_EQ(registration_.right_px(), 0);
   EXPECT_TRUE(registration_.warnings().empty());
-  EXPECT_EQ(registration_.undo(view(), Pose::Identity(), camera()).image.data, depth_.view().data);
+  EXPECT_EQ(undo(Pose::Identity()).image.data, depth_.view().data);
   registration_.is_enabled = true;
   registration_.reset();
   EXPECT_EQ(registration_.right_px(), 0);
@@ -351,17 +377,17 @@ TEST_F(DepthRegistrationTest, SwitchedOffThereIsNoShift) {
 TEST_F(DepthRegistrationTest, SwitchedOffItLooksAtNothing) {
   registration_.is_enabled = false;
   observe(80, 1.0);
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 // Whoever has switched it off is not warned of what it found, nor gets it back.
 TEST_F(DepthRegistrationTest, SwitchedOffItForgets) {
   observe(80, 1.0);
   registration_.is_enabled = false;
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
   observe(1, 0.0);
   registration_.is_enabled = true;
-  EXPECT_EQ(registration_.frames(), 0.0);
+  EXPECT_EQ(registration_.delay_s(), 0.0);
 }
 
 // A post's left edge at 100 in the late depth; the camera's motion takes it 10 px to the right within a frame.
@@ -370,7 +396,7 @@ TEST_F(DepthRegistrationTest, UndoneTheDepthLiesOnItsImage) {
   left_px_.fill(100.0);
   observe(1, 0.0, 0.0, [](double) { return 0.0; });
   const Pose motion = make_pose(Matrix3d::Identity(), {10.0 / kFocal_px, 0.0, 0.0});
-  const DepthView undone = registration_.undo(view(), motion, camera());
+  const DepthView undone = undo(motion);
   EXPECT_NE(undone.metres(109, 30), 1.0f);
   EXPECT_EQ(undone.metres(110, 30), 1.0f);
   EXPECT_EQ(undone.metres(121, 30), 1.0f);
@@ -383,7 +409,7 @@ TEST_F(DepthRegistrationTest, UndoneAlongTheFlowItLiesOnWhatMoves) {
   left_px_.fill(100.0);
   observe(1, 0.0, 0.0, [](double) { return 0.0; });
   FrameView frame = view();
-  frame.depth = registration_.undo(view(), Pose::Identity(), camera());
+  frame.depth = undo(Pose::Identity());
   EXPECT_EQ(frame.depth.metres(100, 30), 1.0f);
   matches_.begin({});
   matches_.resize(2);
@@ -398,9 +424,31 @@ TEST_F(DepthRegistrationTest, UndoneAlongTheFlowItLiesOnWhatMoves) {
   EXPECT_EQ(undone.metres(122, 30), 3.0f);
 }
 
+// 20 px within two seconds, of which depth is one late: 10 px.
+TEST_F(DepthRegistrationTest, AfterADroppedFrameAsMuchIsUndone) {
+  observe(80, 1.0);
+  left_px_.fill(100.0);
+  observe(1, 0.0, 0.0, [](double) { return 0.0; });
+  FrameView frame = view();
+  frame.depth = undo(make_pose(Matrix3d::Identity(), {20.0 / kFocal_px, 0.0, 0.0}), 2.0);
+  EXPECT_EQ(frame.depth.metres(110, 30), 1.0f);
+  EXPECT_EQ(frame.depth.metres(121, 30), 1.0f);
+  frame.depth = undo(Pose::Identity(), 2.0);
+  matches_.begin({});
+  matches_.resize(1);
+  matches_.elapsed_s = 2.0;
+  matches_.current.pixel = {Vector2f(116, 30)};
+  matches_.reference.pixel = {Vector2f(96, 30)};
+  matches_.state = {MatchState::matched};
+  Workspace workspace;
+  const DepthView undone = registration_.undo_along_flow(view(), frame, matches_, workspace);
+  EXPECT_EQ(undone.metres(110, 30), 1.0f);
+  EXPECT_EQ(undone.metres(121, 30), 1.0f);
+}
+
 TEST_F(DepthRegistrationTest, DepthThatIsNotLateIsHandedOnAsItIs) {
   observe(40, 0.0);
-  const DepthView undone = registration_.undo(view(), make_pose(Matrix3d::Identity(), {0.1, 0.0, 0.0}), camera());
+  const DepthView undone = undo(make_pose(Matrix3d::Identity(), {0.1, 0.0, 0.0}));
   EXPECT_EQ(undone.image.data, depth_.view().data);
   matches_.resize(1);
   matches_.state[0] = MatchState::matched;
@@ -415,10 +463,10 @@ TEST_F(DepthRegistrationTest, WhatCannotBeUndoneIsHandedOnAsItIs) {
   observe(80, 1.0);
   Workspace workspace;
   const FrameView bare(gray_.view(), DepthView(), 0.0);
-  EXPECT_TRUE(registration_.undo(bare, Pose::Identity(), camera()).empty());
+  EXPECT_TRUE(registration_.undo(view(), bare, Pose::Identity(), camera()).empty());
   EXPECT_EQ(registration_.undo_along_flow(bare, view(), matches_, workspace).image.data, depth_.view().data);
   registration_.is_enabled = false;
-  EXPECT_EQ(registration_.undo(view(), Pose::Identity(), camera()).image.data, depth_.view().data);
+  EXPECT_EQ(undo(Pose::Identity()).image.data, depth_.view().data);
   EXPECT_EQ(registration_.undo_along_flow(view(), view(), matches_, workspace).image.data, depth_.view().data);
 }
 

@@ -48,7 +48,7 @@ class RegistrationFitTest : public testing::Test {
 
 TEST_F(RegistrationFitTest, KnowsNothingAtFirst) {
   const RegistrationFit::Best best = fit_.best();
-  EXPECT_EQ(best.frames, 0.0);
+  EXPECT_EQ(best.intervals, 0.0);
   EXPECT_EQ(best.gain, 0.0f);
   EXPECT_EQ(best.deviations, 0.0f);
 }
@@ -62,7 +62,7 @@ TEST_F(RegistrationFitTest, WhatGoesBothWaysTellsTheDelay) {
   post(270, -16, -16);
   look(10);
   const RegistrationFit::Best best = fit_.best();
-  EXPECT_EQ(best.frames, 1.0);
+  EXPECT_EQ(best.intervals, 1.0);
   EXPECT_TRUE(best.is_inside);
   EXPECT_EQ(best.gain, std::numeric_limits<float>::infinity());
 }
@@ -77,7 +77,7 @@ TEST_F(RegistrationFitTest, AShiftServesOneWayOnly) {
   post(240, -4, -4);
   look(6);
   const RegistrationFit::Best best = fit_.best();
-  EXPECT_EQ(best.frames, 1.0);
+  EXPECT_EQ(best.intervals, 1.0);
   EXPECT_NEAR(best.gain, 1.0f, 1e-4f);
   EXPECT_NEAR(best.deviations, 4.78f, 0.01f);
 }
@@ -87,7 +87,7 @@ TEST_F(RegistrationFitTest, WhatGoesOneWayMayBeAShift) {
   post(120, 3, 3);
   look(20);
   const RegistrationFit::Best best = fit_.best();
-  EXPECT_EQ(best.frames, 0.0);
+  EXPECT_EQ(best.intervals, 0.0);
   EXPECT_EQ(best.gain, 0.0f);
   EXPECT_EQ(best.right_px, 2) << "of the two pixels beside the edge the one that is nearer";
   EXPECT_EQ(best.down_px, 0) << "the post is as high as the image: all rows are alike";
@@ -121,7 +121,7 @@ TEST_F(RegistrationFitTest, DepthThatIsTooNewIsBefore) {
   post(60, -8, 16);
   post(200, 8, -16);
   look(20);
-  EXPECT_EQ(fit_.best().frames, -0.5);
+  EXPECT_EQ(fit_.best().intervals, -0.5);
 }
 
 // 9 px to the left of all edges, which no shift reaches: at a delay of a frame the shift of 4 px, the farthest, does.
@@ -142,29 +142,29 @@ TEST_F(RegistrationFitTest, WhatWasLongAgoFades) {
     look(times);
   };
   look_at(200, 16);
-  EXPECT_EQ(fit_.best().frames, 1.0);
+  EXPECT_EQ(fit_.best().intervals, 1.0);
   look_at(20, 0);
-  EXPECT_EQ(fit_.best().frames, 1.0) << "1 - 0.98^20 is a third of all";
+  EXPECT_EQ(fit_.best().intervals, 1.0) << "1 - 0.98^20 is a third of all";
   look_at(40, 0);
-  EXPECT_EQ(fit_.best().frames, 0.0) << "1 - 0.98^60 are two thirds";
+  EXPECT_EQ(fit_.best().intervals, 0.0) << "1 - 0.98^60 are two thirds";
 }
 
 TEST_F(RegistrationFitTest, FewJumpsTellNothing) {
   post(60, 16, 16);
   post(200, -16, -16);
   look(11);
-  EXPECT_EQ(fit_.best().frames, 0.0) << "2 · (1 - 0.98^11) / 0.02 = 19.9";
+  EXPECT_EQ(fit_.best().intervals, 0.0) << "2 · (1 - 0.98^11) / 0.02 = 19.9";
   look(1);
-  EXPECT_EQ(fit_.best().frames, 1.0);
+  EXPECT_EQ(fit_.best().intervals, 1.0);
 }
 
 TEST_F(RegistrationFitTest, AResetForgets) {
   post(60, 16, 16);
   post(200, -16, -16);
   look(20);
-  EXPECT_EQ(fit_.best().frames, 1.0);
+  EXPECT_EQ(fit_.best().intervals, 1.0);
   fit_.reset();
-  EXPECT_EQ(fit_.best().frames, 0.0);
+  EXPECT_EQ(fit_.best().intervals, 0.0);
 }
 
 // An image without an edge, no jumps, jumps that all move out of the image.
@@ -172,7 +172,7 @@ TEST_F(RegistrationFitTest, NothingToSeeTellsNothing) {
   fit_.add(gray_.view(), {});
   fit_.add(gray_.view(), std::vector<FlowingJump>{{{100.0f, 20.0f}, {8.0f, 0.0f}}});
   fit_.add(gray_.view(), std::vector<FlowingJump>{{{1e9f, 20.0f}, {8.0f, 0.0f}}});
-  EXPECT_EQ(fit_.best().frames, 0.0);
+  EXPECT_EQ(fit_.best().intervals, 0.0);
   EXPECT_EQ(fit_.best().deviations, 0.0f);
 }
 

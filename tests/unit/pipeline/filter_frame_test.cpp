@@ -619,7 +619,7 @@ TEST_F(FrameFilterTest, TheMaskOfAFrameThatWasNotJudgedKeepsAll) {
 /// Says that depth is late, and gives 3 m everywhere in its place.
 struct ThreeMetres : NoDepthRegistration {
   template <class Camera>
-  DepthView undo(const FrameView&, const Pose&, const Camera&) noexcept {
+  DepthView undo(const FrameView&, const FrameView&, const Pose&, const Camera&) noexcept {
     return DepthView(undone_m);
   }
   template <class Camera>

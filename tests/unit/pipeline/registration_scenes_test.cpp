@@ -28,7 +28,7 @@ constexpr double kFrame_s = 1.0 / 30.0;
 struct Outcome {
   FilterScore score;
   int known_after = -1;  ///< frames, until the delay was known
-  double frames = 0.0;   ///< the delay at the end
+  double delay_s = 0.0;  ///< at the end
   int right_px = 0;      ///< by which depth is moved at the end
   Warnings warnings;
   // Features on movers in the second half:
@@ -53,7 +53,7 @@ Outcome run(double late_s, int right_px = 0, bool is_enabled = true) {
     const FrameResult& result = filter.filter_frame(view, pixels);
     outcome.warnings.add(result.warnings());
     outcome.right_px = filter.depth_registration.right_px();
-    if (outcome.known_after < 0 && filter.depth_registration.frames() != 0.0) outcome.known_after = index;
+    if (outcome.known_after < 0 && filter.depth_registration.delay_s() != 0.0) outcome.known_after = index;
     for (std::size_t i = 0; i < pixels.size() && index >= 20; ++i) {
       const int u = rounded(pixels[i].x()), v = rounded(pixels[i].y());
       if (frame.labels.view().row<std::uint8_t>(v)[u] != static_cast<std::uint8_t>(PixelLabel::moving)) continue;
@@ -66,7 +66,7 @@ Outcome run(double late_s, int right_px = 0, bool is_enabled = true) {
     return result;
   };
   outcome.score = scene_run::run(scene, filter_frame).score;
-  outcome.frames = filter.depth_registration.frames();
+  outcome.delay_s = filter.depth_registration.delay_s();
   return outcome;
 }
 
@@ -74,7 +74,7 @@ Outcome run(double late_s, int right_px = 0, bool is_enabled = true) {
 TEST(LateDepth, IsKnownWithinHalfASecond) {
   for (const double frames : {1.0, 0.5, -0.5, -1.0}) {
     const Outcome outcome = run(frames * kFrame_s);
-    EXPECT_EQ(outcome.frames, frames);
+    EXPECT_NEAR(outcome.delay_s, frames * kFrame_s, 1e-9);
     EXPECT_GT(outcome.known_after, 0) << frames;
     EXPECT_LE(outcome.known_after, 15) << frames;
     EXPECT_GT(*outcome.score.recall(), 0.97) << frames;
@@ -104,7 +104,7 @@ TEST(MisplacedDepth, IsMovedBack) {
   for (const int right_px : {2, -3}) {
     const Outcome moved = run(0.0, right_px), as_it_comes = run(0.0, right_px, false);
     EXPECT_NEAR(moved.right_px, -right_px, 1);
-    EXPECT_EQ(moved.frames, 0.0);
+    EXPECT_EQ(moved.delay_s, 0.0);
     EXPECT_TRUE(moved.warnings.has(Warning::depth_shifted));
     EXPECT_FALSE(as_it_comes.warnings.has(Warning::depth_shifted));
     EXPECT_GT(moved.right, 0.98 * moved.with_depth);
