@@ -21,13 +21,6 @@ enum class ObservationState : std::uint8_t {
   seen,      ///< its place could be compared
 };
 
-/// What a view of the past shows in the place of a point.
-enum class Space {
-  unknown,   ///< out of view, without depth, or hidden
-  occupied,  ///< a surface was there
-  free,      ///< the view saw through to something farther
-};
-
 /// One feature in one older frame, looked for where a static point would have been.
 struct Observation {
   ObservationState state = ObservationState::none;
@@ -49,7 +42,6 @@ struct SurfaceCell {
   Vector3d normal = Vector3d::Zero();  ///< unit length, in the current camera
   double depth_sigma_m = 0;
   float space_static_prior = 1.0f;        ///< 0 to 1, as `Matches::space_static_prior`
-  Space seen = Space::unknown;            ///< what the view that was asked last saw in its place
   std::uint8_t occupied_views = 0;        ///< as `Matches::occupied_views`
   Vector2f predicted = Vector2f::Zero();  ///< where it was in the reference image if it stands still, pixels
 };

@@ -39,8 +39,7 @@ class SpaceSearch {
   }
 
   /// Before the motion is known well: support corners and surfaces that came within the past seconds get a low static
-  /// prior. A view that sees through most of the surfaces is one whose pose is wrong: it says nothing. What no view saw
-  /// before belongs to the surface beside it.
+  /// prior. What no view saw before belongs to the surface beside it.
   /// @param step_px  spacing of the surfaces' cells
   template <class Camera, class Noise>
   void set_static_prior(const SpaceHistory& history, double timestamp_s, const Pose& filter_from_expected,
@@ -51,13 +50,6 @@ class SpaceSearch {
     const StoodFor stood_for{workspace.take<double>(cells.size(), 0.0), workspace.take<double>(matches.size(), 0.0)};
     const span<double> free_ago_s = workspace.take<double>(cells.size(), 0.0);
     for_each_view(history, timestamp_s, filter_from_expected, camera, noise, [&](double elapsed_s, const auto& look) {
-      std::size_t through = 0, there = 0;
-      for (SurfaceCell& cell : cells) {
-        cell.seen = look(cell.point);
-        through += cell.seen == Space::free;
-        there += cell.seen == Space::occupied;
-      }
-      if (static_cast<double>(through) > kMostCame * static_cast<double>(through + there)) return;
       const bool is_old = elapsed_s > kSettled_s;
       const auto judge = [&](Space seen, float& static_prior, std::uint8_t& occupied_views, double& stood_for_s) {
         if (seen == Space::free) static_prior = std::min(static_prior, kFreeSpaceStaticPrior);
@@ -66,8 +58,9 @@ class SpaceSearch {
         stood_for_s = elapsed_s;  // views come from the newest to the oldest
       };
       for (std::size_t s = 0; s < cells.size(); ++s) {
-        judge(cells[s].seen, cells[s].space_static_prior, cells[s].occupied_views, stood_for.cells_s[s]);
-        if (cells[s].seen == Space::free && free_ago_s[s] == 0.0) free_ago_s[s] = elapsed_s;
+        const Space seen = look(cells[s].point);
+        judge(seen, cells[s].space_static_prior, cells[s].occupied_views, stood_for.cells_s[s]);
+        if (seen == Space::free && free_ago_s[s] == 0.0) free_ago_s[s] = elapsed_s;
       }
       for (std::size_t i = matches.host_count; i < matches.size(); ++i)
         if (matches.current.has_depth(i))
@@ -84,7 +77,6 @@ class SpaceSearch {
   static constexpr double kMargin_m = 0.08;      // free is what was farther by this …
   static constexpr double kDrift_m_s = 0.05;     // … and this much more for each second that poses are chained …
   static constexpr double kSigmas = 4.0;         // … and so many standard deviations of both depths
-  static constexpr double kMostCame = 0.6;       // share of the surfaces: people hide half of a room, rarely more
   static constexpr double kSettled_s = 2.2;      // what was there so long ago is no newcomer …
   static constexpr double kEarlyShare = 0.5;     // … nor, while less is remembered, this share of it ago …
   static constexpr double kComeSince = 0.75;     // … if this share of what came has come since
@@ -92,6 +84,13 @@ class SpaceSearch {
   static constexpr float kFreeSpaceStaticPrior = 0.05f;  // as after some frames of motion
   static constexpr int kSpreadCells = 12;                // half of an image's width
   static constexpr double kNearest_m = 0.1;
+
+  /// What a view of the past shows in the place of a point.
+  enum class Space {
+    unknown,   ///< out of view, without depth, or hidden
+    occupied,  ///< a surface was there
+    free,      ///< the view saw through to something farther
+  };
 
   /// Seconds since the oldest view that saw it in its place; 0: none did.
   struct StoodFor {
