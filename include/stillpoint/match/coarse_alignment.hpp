@@ -45,7 +45,8 @@ class CoarseAlignment {
 
   /// @param expected  reference_from_current, where the search begins; it begins at no motion, too, where that is
   ///                  outside of its basin
-  /// @return          reference_from_current; `expected` where nothing better is found. O(pixels of the small images).
+  /// @return          reference_from_current; `expected` where nothing better is found, or nothing that looks like a
+  ///                  motion (`kContradiction`). O(pixels of the small images).
   template <class Camera>
   Pose align(const DepthView& depth, const ImageView& gray, const Pose& expected, const Camera& camera) {
     points_.clear();
@@ -67,8 +68,10 @@ class CoarseAlignment {
         best = found;
       }
     }
-    return best.reference_from_current;
+    return best.cost > kContradiction ? expected : best.reference_from_current;
   }
+
+  static constexpr double kContradiction = 0.6;  ///< cost: 0.2 in the median at true motions, 0.73 at others
 
   /// How badly a motion explains the two frames, where they stood still.
   /// @return mean loss from 0 to 1 after `align`: some 0.2 at the true motion, some 0.75 at any; 0 where nothing can be

@@ -87,7 +87,7 @@ class CornerTracker {
   /// Do the frames as a whole look like another motion than this one? To be asked between `match` and `learn`.
   template <class Camera>
   bool contradicts(const Pose& reference_from_current, const Camera& camera) const {
-    return is_aligned_ && coarse_.cost(reference_from_current, camera) > kContradiction;
+    return is_aligned_ && coarse_.cost(reference_from_current, camera) > CoarseAlignment::kContradiction;
   }
 
   /// What stood still says where the coming alignment looks.
@@ -109,7 +109,6 @@ class CornerTracker {
   static constexpr DepthTolerance kSameSurface{};
   static constexpr std::size_t kFinerLevels = 2;  // of the pyramid: enough where the alignment is right
   static constexpr float kOtherStart_px = 8.0f;   // a nearer second start finds what the first one finds
-  static constexpr double kContradiction = 0.6;   // cost: 0.2 in the median at true motions, 0.73 at others
 
   /// Displacements from which the search of a corner begins, pixels. The alignment may have followed people who fill
   /// the view, and the camera may have turned where nobody expected it: the better fit counts.

@@ -144,6 +144,23 @@ TEST_F(CoarseAlignmentTest, WhatIsExpectedStaysWhereNothingIsBetter) {
   EXPECT_EQ(alignment_.align(view.depth, view.gray, expected, sequence_.camera()).matrix(), expected.matrix());
 }
 
+// The current image is turned over: some motion fits a little better than what is expected, and none fits.
+TEST_F(CoarseAlignmentTest, WhatIsExpectedStaysWhereNothingFits) {
+  for (int first = 0; first < 120; first += 30) {
+    Image reference, current;
+    render(first, reference);
+    render(first, current);
+    cv::Mat turned;
+    cv::rotate(as_mat(current.frame.gray.view()), turned, cv::ROTATE_180);
+    current.pyramid.build(ImageView(turned), 4);
+    alignment_.add_frame(reference.pyramid);
+    alignment_.add_frame(current.pyramid);
+    const FrameView view = current.frame.view();
+    const Pose found = alignment_.align(view.depth, view.gray, Pose::Identity(), sequence_.camera());
+    EXPECT_EQ(found.matrix(), Pose::Identity().matrix()) << first;
+  }
+}
+
 // Both frames are the same but for a patch of 40 % of the width, which went 24 px to the right. Where the weights say
 // that it moves, the camera has not.
 TEST_F(CoarseAlignmentTest, WhatMovesHasNoSay) {

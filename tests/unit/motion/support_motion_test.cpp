@@ -58,14 +58,6 @@ Matches scene_of(const Pose& truth, std::uint64_t seed, double noise_px = 0.0, d
   return test::make_matches(truth, scene, random);
 }
 
-/// A match is wrong in its own way: by up to 40 px, and 0.3 to 1.5 m.
-void displace(std::size_t i, Random& random, Matches& matches) {
-  FrameFeatures& reference = matches.reference;
-  reference.undistorted[i] += Vector2d(random.uniform(-40.0, 40.0), random.uniform(-40.0, 40.0));
-  reference.pixel[i] = reference.undistorted[i].cast<float>();
-  reference.set_depth(i, reference.depth_m[i] + random.uniform(0.3, 1.5), 1e-3, test::test_camera());
-}
-
 TEST(SupportMotion, KnownMotionsComeBack) {
   const Pose stands = Pose::Identity(), turns = test::pose_of({0.03, -0.05, 0.02}, Vector3d::Zero());
   for (const Pose& truth : {stands, turns, kMotion}) {
@@ -130,21 +122,6 @@ TEST(SupportMotion, ThePastLosesWhereItExplainsTooLittle) {
     const Motion motion = estimate(scene_of(kMotion, seed, 0.3, 0.8, mover), MotionPrior{kMotion});
     EXPECT_EQ(motion.status, Status::ok);
     EXPECT_LT(test::translation_error(motion.current_from_reference, mover * kMotion), 5e-3);
-  }
-}
-
-// 14 against 36 of 200 would do, but fewer than 16 are no motion at all, whatever the past says; 150 are wrong.
-TEST(SupportMotion, AnUnlikelyPastGivesWay) {
-  SupportMotion motion = policy();
-  motion.options.max_trials = 2000;
-  const Pose mover = test::pose_of({0, 0, 0}, {0.06, 0, 0});
-  for (std::uint64_t seed = 0; seed < 10; ++seed) {
-    Random random(seed);
-    Matches matches = scene_of(kMotion, seed, 0.3, 0.07, mover);
-    for (std::size_t i = 50; i < matches.size(); ++i) displace(i, random, matches);
-    const Motion found = estimate(matches, MotionPrior{mover * kMotion}, motion);
-    EXPECT_EQ(found.status, Status::ok) << "seed " << seed;
-    EXPECT_LT(test::translation_error(found.current_from_reference, kMotion), 1e-2) << "seed " << seed;
   }
 }
 
@@ -334,15 +311,20 @@ TEST(SupportMotion, MostCornersLostAreADoubt) {
   EXPECT_FALSE(doubtful(0, 200)) << "the host's features alone";
 }
 
-// Of 20 matches so many are wrong, each in its own way. Six right ones of 20 are a
+// Of 20 matches so many are wrong, each in its own way: up to 40 px and 0.3 to 1.5 m. Six right ones of 20 are a
 // consensus, but the depths of most differ by more than any noise. Where most are right nothing is in doubt, nor where
 // the noise is not measured.
 TEST(SupportMotion, AFewMatchesAmongManyWrongOnesAreInDoubt) {
   const auto doubtful = [](std::size_t wrong_of_20, bool measures_noise, std::uint64_t seed) {
     Random random(seed);
     Matches matches = scene_of(kMotion, seed, 0.3);
-    for (std::size_t i = 0; i < matches.size(); ++i)
-      if (i % 20 < wrong_of_20) displace(i, random, matches);
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (i % 20 >= wrong_of_20) continue;
+      FrameFeatures& reference = matches.reference;
+      reference.undistorted[i] += Vector2d(random.uniform(-40.0, 40.0), random.uniform(-40.0, 40.0));
+      reference.pixel[i] = reference.undistorted[i].cast<float>();
+      reference.set_depth(i, reference.depth_m[i] + random.uniform(0.3, 1.5), 1e-3, test::test_camera());
+    }
     SupportMotion motion = policy();
     motion.measures_noise = measures_noise;
     const Motion found = estimate(matches, MotionPrior{kMotion}, motion);

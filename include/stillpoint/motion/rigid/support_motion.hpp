@@ -84,7 +84,7 @@ class SupportMotion {
         motion.stationary ? at_rest(problem) : with_all_points(selection.hypothesis, selection.cutoffs, problem);
 
     motion.status = matches.current.any_depth() ? Status::no_consensus : Status::no_depth;
-    const double explained = problem.explained_share(chosen.reference_from_current);
+    const double explained = problem.point_support(chosen.reference_from_current) / problem.total_weight();
     if (!(explained > kLeastSupport) || motion.status == Status::no_depth) return motion;
     const Pose current_from_reference = orthonormalized(inverted(chosen.reference_from_current));
     if (!is_plausible_motion(current_from_reference)) return motion;  // what is kilometres away fits any
@@ -132,7 +132,7 @@ class SupportMotion {
   static constexpr double kSameMotion_px = 1.0;   // hypotheses that move the matches less apart on average are one
   static constexpr double kSameAsTold_px = 1.5;   // a motion that the host tells is confirmed by a consensus so near
   static constexpr double kToldPreference = 0.1;  // then it is kept with less support than the past's
-  static constexpr double kLeastSupport = 0.08;   // share of all weight that a motion must explain, the past's, too
+  static constexpr double kLeastSupport = 0.08;   // share of all weight that the motion must explain
   static constexpr double kFewFound = 0.2;  // of the matcher's corners: where the image has jumped, most are lost …
   static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
   static constexpr double kMostPriorLoss = 12.6;    // 95 % quantile of χ²₆: what all points at full weight may cost
@@ -167,9 +167,8 @@ class SupportMotion {
     const double preference = told ? kToldPreference : past_preference;
     const Rivals rivals = rivals_of(past, noise.pixel_sigma, cutoffs, matches, problem, workspace);
     const bool explains_more = rivals.sampled.support > rivals.past.support;
-    const bool is_inverted = explains_more && prior.current_from_reference &&
-                             problem.explained_share(rivals.past.reference_from_current) > kLeastSupport &&
-                             are_two_motions(rivals, preference, problem, workspace);
+    const bool is_inverted =
+        explains_more && prior.current_from_reference && are_two_motions(rivals, preference, problem, workspace);
     if (!explains_more || is_inverted) return {past, cutoffs, noise, is_inverted};
     return {rivals.sampled, cutoffs, {rivals.pixel_sigma, noise.depth_scale}, false};
   }

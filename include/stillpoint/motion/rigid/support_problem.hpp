@@ -126,10 +126,7 @@ class SupportProblem {
     return support_of_points(to_beat);
   }
 
-  /// The same over that of a pose that all points fit exactly.
-  double explained_share(const Pose& pose) const { return point_support(pose) / total_weight(); }
-
-  /// The support of points and planes.
+  /// The same over points and planes.
   double support(const Pose& pose) const {
     set_poses(pose);
     double sum = support_of_points(0.0);
