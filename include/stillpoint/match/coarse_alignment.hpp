@@ -37,7 +37,7 @@ class CoarseAlignment {
   void add_frame(const Pyramid& pyramid) {
     std::swap(reference_, current_);
     std::size_t level = 0;
-    while (level + 1 < pyramid.size() && pyramid[level].width > kWidest_px) ++level;
+    while (level + 1 < pyramid.size() && std::max(pyramid[level].width, pyramid[level].height) > kLongest_px) ++level;
     current_[1].assign(pyramid[level], std::size_t{1} << level, kBlur_px / 2);
     current_[1].equalize_contrast(kContrastReach_px);
     current_[0].assign_half(current_[1], kBlur_px / 2);
@@ -82,10 +82,10 @@ class CoarseAlignment {
                                           : cost_at(reference_from_current, reference_[1], camera, [](auto&&...) {});
   }
 
-  /// Levels of a pyramid that has the small images of a frame: at least four, for what is no wider than 960 px.
-  static std::size_t pyramid_levels(int width_px) noexcept {
+  /// Levels of a pyramid that has the small images of a frame: at least four, for what is no longer than 960 px.
+  static std::size_t pyramid_levels(const ImageView& gray) noexcept {
     std::size_t levels = 4;
-    while ((width_px >> (levels - 1)) > kWidest_px) ++levels;
+    while ((std::max(gray.width, gray.height) >> (levels - 1)) > kLongest_px) ++levels;
     return levels;
   }
 
@@ -103,7 +103,7 @@ class CoarseAlignment {
 
  private:
   static constexpr double kRoom_m = 2.0;       // where no depth is known
-  static constexpr int kWidest_px = 120;       // of the finer image: 80 x 60 of 640 x 480
+  static constexpr int kLongest_px = 120;      // side of the finer image: 80 x 60 of 640 x 480, 60 x 80 of 480 x 640
   static constexpr float kBlur_px = 2.5f;      // standard deviation in the coarser one, as Klein and Murray's
   static constexpr int kContrastReach_px = 8;  // of the finer image
   static constexpr float kGuessWeight = 0.25f;
@@ -125,7 +125,7 @@ class CoarseAlignment {
   void collect_points(const BlurredImage& image, const DepthView& depth, const ImageView& gray, const Camera& camera) {
     points_.clear();
     depths_m_.clear();
-    const int step = image.width() > kWidest_px / 2 ? 2 : 1;
+    const int step = std::max(image.width(), image.height()) > kLongest_px / 2 ? 2 : 1;
     const DepthScale to_depth(gray, depth.image);
     for (int v = 1; v + 1 < image.height(); v += step)
       for (int u = 1; u + 1 < image.width(); u += step) {

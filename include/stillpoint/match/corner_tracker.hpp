@@ -133,10 +133,10 @@ class CornerTracker {
     if (current_time_s_ == current.timestamp_s) return;
     is_aligned_ = false;
     if (!(reference_time_s_ == reference.timestamp_s)) {
-      reference_.build(reference.gray, CoarseAlignment::pyramid_levels(reference.gray.width));
+      reference_.build(reference.gray, CoarseAlignment::pyramid_levels(reference.gray));
       coarse_.add_frame(reference_);
     }
-    current_.build(current.gray, CoarseAlignment::pyramid_levels(current.gray.width));
+    current_.build(current.gray, CoarseAlignment::pyramid_levels(current.gray));
     coarse_.add_frame(current_);
     find_corners(scale);
     current_time_s_ = current.timestamp_s;

@@ -92,11 +92,17 @@ class CoarseAlignmentTest : public testing::Test {
   CoarseAlignment alignment_;
 };
 
-// 1280 / 16 = 80 px wide, as 640 / 8; 1920 / 16 and 3840 / 32 are 120.
-TEST(CoarseAlignment, ItsImagesAreAsSmallForWideFrames) {
-  for (const auto& [width_px, levels] : {std::pair(160, 4), std::pair(640, 4), std::pair(960, 4), std::pair(1280, 5),
-                                         std::pair(1920, 5), std::pair(3840, 6)})
-    EXPECT_EQ(CoarseAlignment::pyramid_levels(width_px), static_cast<std::size_t>(levels)) << width_px;
+// 1280 / 16 = 80 px on the longer side, as 640 / 8; 1920 / 16 and 3840 / 32 are 120. Upright images are as small as
+// those that lie.
+TEST(CoarseAlignment, ItsImagesAreAsSmallForLargeFrames) {
+  for (const auto& [longer_px, levels] : {std::pair(160, 4), std::pair(640, 4), std::pair(960, 4), std::pair(1280, 5),
+                                          std::pair(1920, 5), std::pair(3840, 6)}) {
+    ImageView lies, stands;
+    lies.width = stands.height = longer_px;
+    lies.height = stands.width = 3 * longer_px / 4;
+    EXPECT_EQ(CoarseAlignment::pyramid_levels(lies), static_cast<std::size_t>(levels)) << longer_px;
+    EXPECT_EQ(CoarseAlignment::pyramid_levels(stands), static_cast<std::size_t>(levels)) << longer_px;
+  }
 }
 
 // Corners reach 45 px from where they begin. Frames of a fifth of a second of a fast turn are farther apart than that;
