@@ -61,6 +61,8 @@ struct ImageView {
   ImageView(const Image& image) : ImageView(image_traits<Image>::view(image)) {}
 
   bool empty() const noexcept { return data == nullptr || width <= 0 || height <= 0; }
+  /// What grows with the image is a share of it: the same for a camera on its side.
+  int longer_side_px() const noexcept { return std::max(width, height); }
   bool contains(int u, int v) const noexcept { return u >= 0 && v >= 0 && u < width && v < height; }
   /// Distance to the nearest border pixel, negative outside, NaN for NaN. Pixels have integer centres.
   float border_distance_px(float u, float v) const noexcept {

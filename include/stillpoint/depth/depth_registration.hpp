@@ -85,7 +85,7 @@ class DepthRegistration {
     const double interval = interval_s_ / matches.elapsed_s;
     find_dynamic(matches, labels, static_cast<float>(interval));
     find_static_jumps(frame, scaled(motion.current_from_reference, interval), camera);
-    if (jumps_.size() >= kFewestJumps && camera_moves(frame.gray.width)) of_static_.add(frame.gray, jumps_);
+    if (jumps_.size() >= kFewestJumps && camera_moves(frame.gray.longer_side_px())) of_static_.add(frame.gray, jumps_);
     find_moving_jumps(frame);
     of_moving_.add(frame.gray, jumps_);
     const RegistrationFit::Best of_moving = of_moving_.best();
@@ -128,7 +128,7 @@ class DepthRegistration {
   static constexpr float kStill = 0.03f;             // … and what was found holds while it is better by this
   static constexpr double kLeastDelay = 0.5;         // of an interval: less is left as it is …
   static constexpr double kLeastHeld = 0.25;         // … unless more was found before
-  static constexpr float kReachShare = 0.1f;         // of the width: so near to a dynamic feature …
+  static constexpr float kReachShare = 0.1f;         // of the longer side: so near to a dynamic feature …
   static constexpr double kSameObject_m = 0.3;       // … and about as deep, a jump is that object's …
   static constexpr float kMovingReachShare = 0.05f;  // … and moves with it so near …
   static constexpr float kLeastFlowShare = 1.0f / 213;  // … if that moves by 3 pixels of 640
@@ -181,7 +181,7 @@ class DepthRegistration {
     jumps_.clear();
     jumps_.reserve(static_cast<std::size_t>(2 * kRows * frame.depth.image.width / kDepthJumpReach_px));
     const DepthScale to_depth(frame.gray, frame.depth.image);
-    const float reach_px = kReachShare * static_cast<float>(frame.gray.width);
+    const float reach_px = kReachShare * static_cast<float>(frame.gray.longer_side_px());
     for_each_depth_jump(frame.depth, kRows, [&](int u, int v, float nearer_m) {
       const Vector2f pixel = to_depth.inverse({depth_jump_at(frame.depth, u, v), static_cast<float>(v)});
       if (is_dynamic(pixel, static_cast<double>(nearer_m), reach_px)) return;
@@ -195,21 +195,21 @@ class DepthRegistration {
   }
 
   /// Far enough for a delay to be seen: by 2 pixels in a mean jump, where the image has 640 columns.
-  bool camera_moves(int width) const noexcept {
+  bool camera_moves(int longer_side_px) const noexcept {
     float sum_px = 0.0f;
     for (const FlowingJump& jump : jumps_) sum_px += jump.flow.norm();
-    return sum_px * 320.0f > static_cast<float>(jumps_.size()) * static_cast<float>(width);
+    return sum_px * 320.0f > static_cast<float>(jumps_.size()) * static_cast<float>(longer_side_px);
   }
 
   void find_moving_jumps(const FrameView& frame) {
     jumps_.clear();
     jumps_.reserve(static_cast<std::size_t>(4 * kRows * frame.depth.image.width / kDepthJumpReach_px));
     const DepthScale to_depth(frame.gray, frame.depth.image);
-    const auto width_px = static_cast<float>(frame.gray.width);
+    const auto side_px = static_cast<float>(frame.gray.longer_side_px());
     for_each_depth_jump(frame.depth, 2 * kRows, [&](int u, int v, float nearer_m) {
       const Vector2f pixel = to_depth.inverse({depth_jump_at(frame.depth, u, v), static_cast<float>(v)});
-      const Vector2f flow = dynamic_flow(pixel, static_cast<double>(nearer_m), kMovingReachShare * width_px);
-      if (flow.norm() > kLeastFlowShare * width_px) jumps_.push_back({pixel, flow});
+      const Vector2f flow = dynamic_flow(pixel, static_cast<double>(nearer_m), kMovingReachShare * side_px);
+      if (flow.norm() > kLeastFlowShare * side_px) jumps_.push_back({pixel, flow});
     });
   }
 

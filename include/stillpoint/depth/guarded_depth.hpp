@@ -18,8 +18,8 @@
 namespace stillpoint {
 
 /// Depth at the rounded pixel, if its 3 × 3 neighbourhood is one surface: at a hole or a jump there is none, and
-/// nothing is interpolated across an edge. In images of 960 pixels and more the neighbourhood is wider by as much: how
-/// far a depth edge lies beside that of the image is an angle.
+/// nothing is interpolated across an edge. In images whose longer side has 960 pixels or more the neighbourhood is
+/// wider by as much: how far a depth edge lies beside that of the image is an angle.
 struct GuardedDepth {
   // No option in files.
   int fewest_neighbours = 6;  ///< of nine pixels that must have a depth
@@ -45,11 +45,11 @@ struct GuardedDepth {
   }
 
  private:
-  static constexpr int kUsualWidth_px = 640;
+  static constexpr int kUsualSide_px = 640;
 
   /// From the centre of the neighbourhood to its border.
   static int reach_px(const ImageView& depth) noexcept {
-    return std::max(1, (depth.width + kUsualWidth_px / 2) / kUsualWidth_px);
+    return std::max(1, (depth.longer_side_px() + kUsualSide_px / 2) / kUsualSide_px);
   }
 
   /// Compared in the units of the image: metres of the extremes alone.

@@ -42,7 +42,7 @@ class RegistrationFit {
 
   /// Adds the mean gray step at the moved jumps of one frame, over that of all delays and shifts.
   void add(const ImageView& gray, span<const FlowingJump> jumps) {
-    const int step_px = std::max(gray.width / 320, 1);
+    const int step_px = std::max(gray.longer_side_px() / 320, 1);
     step_px_ = step_px;
     const std::size_t stride = 1 + jumps.size() / kMostJumps;
     Steps seen;

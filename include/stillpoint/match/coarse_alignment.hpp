@@ -37,7 +37,7 @@ class CoarseAlignment {
   void add_frame(const Pyramid& pyramid) {
     std::swap(reference_, current_);
     std::size_t level = 0;
-    while (level + 1 < pyramid.size() && std::max(pyramid[level].width, pyramid[level].height) > kLongest_px) ++level;
+    while (level + 1 < pyramid.size() && pyramid[level].longer_side_px() > kLongest_px) ++level;
     current_[1].assign(pyramid[level], std::size_t{1} << level, kBlur_px / 2);
     current_[1].equalize_contrast(kContrastReach_px);
     current_[0].assign_half(current_[1], kBlur_px / 2);
@@ -85,7 +85,7 @@ class CoarseAlignment {
   /// Levels of a pyramid that has the small images of a frame: at least four, for what is no longer than 960 px.
   static std::size_t pyramid_levels(const ImageView& gray) noexcept {
     std::size_t levels = 4;
-    while ((std::max(gray.width, gray.height) >> (levels - 1)) > kLongest_px) ++levels;
+    while ((gray.longer_side_px() >> (levels - 1)) > kLongest_px) ++levels;
     return levels;
   }
 

@@ -15,6 +15,8 @@
 #include "stillpoint/core/extend.hpp"
 #include "stillpoint/core/frame.hpp"
 #include "stillpoint/core/geometry.hpp"
+#include "stillpoint/core/image.hpp"
+#include "stillpoint/depth/depth_scale.hpp"
 
 namespace stillpoint {
 
@@ -34,47 +36,63 @@ struct PooledDepth {
   }
 
   void assign(const FrameView& frame, const Pose& pose) {
-    constexpr int kBlocksAcross = 160;
-    block_px = std::max(1.0f, static_cast<float>(frame.gray.width) / kBlocksAcross);
-    width = static_cast<int>(static_cast<float>(frame.gray.width) / block_px);
-    height = static_cast<int>(std::ceil(static_cast<float>(frame.gray.height) / block_px));
+    constexpr int kBlocksAlong = 160;
+    block_px = std::max(1.0f, static_cast<float>(frame.gray.longer_side_px()) / kBlocksAlong);
+    width = blocks_of(frame.gray.width);
+    height = blocks_of(frame.gray.height);
     timestamp_s = frame.timestamp_s;
     filter_from_camera = pose;
     refill(nearest_m, static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f);
     const ImageView& depth = frame.depth.image;
     if (depth.empty()) return;
     if (depth.format == PixelFormat::depth16)
-      pool<std::uint16_t>(frame.depth, static_cast<float>(frame.gray.height));
+      pool<std::uint16_t>(frame);
     else
-      pool<float>(frame.depth, static_cast<float>(frame.gray.height));
+      pool<float>(frame);
     spread_nearest();
   }
 
  private:
+  /// The last one may be cut off.
+  int blocks_of(int side_px) const noexcept {
+    return static_cast<int>(std::ceil(static_cast<float>(side_px) / block_px - 1e-3f));
+  }
+
   /// The nearest of each block, compared in the units of the image: one division for a block.
   template <class Depth>
-  void pool(const DepthView& depth, float gray_height) {
+  void pool(const FrameView& frame) {
     constexpr Depth kMost = std::numeric_limits<Depth>::max();
-    const float across = static_cast<float>(depth.image.width) / static_cast<float>(width);
-    const float down = static_cast<float>(depth.image.height) / gray_height * block_px;  // the last may be cut off
-    for (int v = 0; v < height; ++v)
+    const ImageView& depth = frame.depth.image;
+    const DepthScale to_depth(frame.gray, depth);
+    const float across = to_depth.x * block_px, down = to_depth.y * block_px;
+    for (int v = 0; v < height; ++v) {
+      const Pixels rows = pixels_of(v, down, depth.height);
       for (int u = 0; u < width; ++u) {
-        const int first_u = static_cast<int>(static_cast<float>(u) * across);
-        const int last_u = std::max(first_u + 1, static_cast<int>(static_cast<float>(u + 1) * across));
-        const int first_v = std::min(static_cast<int>(static_cast<float>(v) * down), depth.image.height - 1);
-        const int last_v =
-            std::min(std::max(first_v + 1, static_cast<int>(static_cast<float>(v + 1) * down)), depth.image.height);
+        const Pixels columns = pixels_of(u, across, depth.width);
         int known = 0;
         Depth nearest = kMost;
-        for (int y = first_v; y < last_v; ++y)
-          for (int x = first_u; x < last_u; ++x) {
-            const Depth there = depth.image.row<Depth>(y)[x];
+        for (int y = rows.first; y < rows.end; ++y)
+          for (int x = columns.first; x < columns.end; ++x) {
+            const Depth there = depth.row<Depth>(y)[x];
             if (!(there > 0 && there <= kMost)) continue;  // nothing, or not finite
             ++known;
             nearest = std::min(nearest, there);
           }
-        if (2 * known >= (last_u - first_u) * (last_v - first_v)) nearest_m[index(u, v)] = depth.metres(nearest);
+        if (2 * known >= (columns.end - columns.first) * (rows.end - rows.first))
+          nearest_m[index(u, v)] = frame.depth.metres(nearest);
       }
+    }
+  }
+
+  struct Pixels {
+    int first, end;
+  };
+
+  /// Of the depth image, in one row or column of blocks: at least one.
+  static Pixels pixels_of(int block, float pixels_per_block, int side_px) noexcept {
+    const int first = std::min(static_cast<int>(static_cast<float>(block) * pixels_per_block), side_px - 1);
+    const int end = static_cast<int>(static_cast<float>(block + 1) * pixels_per_block);
+    return {first, std::min(std::max(first + 1, end), side_px)};
   }
 
   /// Least of three by three, in place: each row's least of three, then the rows above and below. A border block has

@@ -64,6 +64,11 @@ TEST(ImageView, BorderDistanceIsToTheOutermostPixelCentre) {
   EXPECT_LT(image.border_distance_px(2, -kInfinity), 0);
 }
 
+TEST(ImageView, ItsLongerSideIsThatOfAnImageOnItsSide) {
+  EXPECT_EQ(ImageView(nullptr, 640, 480, 640, PixelFormat::gray8).longer_side_px(), 640);
+  EXPECT_EQ(ImageView(nullptr, 480, 640, 480, PixelFormat::gray8).longer_side_px(), 640);
+}
+
 TEST(ImageView, ContainsItsPixels) {
   const cv::Mat mat(5, 10, CV_8UC1);
   const ImageView image(mat);

@@ -67,6 +67,15 @@ TEST(GuardedDepth, TheNeighbourhoodGrowsWithTheImage) {
   }
 }
 
+// Of a camera on its side: 960 rows count as 960 columns do.
+TEST(GuardedDepth, TheNeighbourhoodGrowsWithTheLongerSide) {
+  std::vector<float> metres(std::size_t{7} * 960, 2.0f);
+  const DepthView wall(ImageView(metres.data(), 7, 960, 7 * sizeof(float), PixelFormat::depth32f));
+  EXPECT_EQ(guarded().at(wall, {3, 20}), 2.0);
+  metres[std::size_t{22} * 7 + 3] = 3.0f;
+  EXPECT_EQ(guarded().at(wall, {3, 20}), 0.0) << "an edge two pixels away";
+}
+
 TEST(GuardedDepth, ThereIsNoneAtAJump) {
   const GuardedDepth lookup = guarded();
   for (const float neighbour : {1.93f, 2.07f}) {

@@ -58,6 +58,20 @@ TEST(PooledDepth, KnowsTheLastRowsToo) {
   EXPECT_EQ(pooled.nearest_around({500, 479}), 0.0f) << "a border block has neighbours that are unknown";
 }
 
+// The camera on its side, 848 long: 480 / 5.3 = 90.6 blocks across, the last is cut off.
+TEST(PooledDepth, OfAnUprightImageToo) {
+  const cv::Mat gray(848, 480, CV_8UC1, cv::Scalar(50));
+  cv::Mat depth(848, 480, CV_32FC1, cv::Scalar(3.0));
+  depth.at<float>(400, 475) = 1.0f;
+  PooledDepth pooled;
+  pooled.assign(view_of(gray, depth, 0), Pose::Identity());
+  EXPECT_EQ(pooled.width, 91);
+  EXPECT_EQ(pooled.height, 160);
+  EXPECT_EQ(pooled.nearest_around({474, 400}), 1.0f);
+  EXPECT_EQ(pooled.nearest_around({474, 500}), 3.0f);
+  EXPECT_EQ(pooled.nearest_around({479, 500}), 0.0f) << "a border block has neighbours that are unknown";
+}
+
 TEST(SpaceHistory, KeepsAViewEachFourTenthsOfASecond) {
   const cv::Mat gray(kHeight, kWidth, CV_8UC1, cv::Scalar(50)), depth(kHeight, kWidth, CV_32FC1, cv::Scalar(3.0));
   SpaceHistory history;
