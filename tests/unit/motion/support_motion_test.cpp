@@ -294,21 +294,28 @@ TEST(SupportMotion, TheMeasuredNoiseIsHeldWithinLimits) {
   EXPECT_EQ(estimate(Matches()).pixel_sigma, 0.0) << "nobody says";
 }
 
-// Where the image has jumped, most corners are found nowhere, and what is found may be anything. 200 of 1001 are less
-// than a fifth.
-TEST(SupportMotion, MostCornersLostAreADoubt) {
-  const auto doubtful = [](std::size_t corners, std::size_t of_host) {
+// Where the image has jumped, most corners are found nowhere, and what is found may be anything: its depths tell. 200
+// of 1001 are less than a fifth.
+TEST(SupportMotion, MostCornersLostAreADoubtUnlessDepthsFit) {
+  const auto doubtful = [](std::size_t corners, std::size_t of_host, double depth_noise_m) {
+    Random random(5);
     Matches matches = scene_of(kMotion, 5);
+    for (std::size_t i = 0; i < matches.size(); ++i)
+      matches.reference.set_depth(i, matches.reference.depth_m[i] + depth_noise_m * random.gaussian(), 1e-3,
+                                  test::test_camera());
     matches.host_count = of_host;
     const std::size_t lost = corners - (matches.size() - of_host);
     matches.resize(matches.size() + lost);  // a feature is lost until it is found
-    const Motion motion = estimate(matches);
+    const Motion motion = estimate(matches, MotionPrior{kMotion});
     EXPECT_EQ(motion.status, Status::ok);
+    EXPECT_EQ(motion.depth_noise > 2.0, depth_noise_m > 0.01) << motion.depth_noise;
+    EXPECT_LT(motion.depth_noise, 4.0) << "else depths that do not fit are a doubt by themselves";
     return motion.doubtful;
   };
-  EXPECT_FALSE(doubtful(999, 0));
-  EXPECT_TRUE(doubtful(1001, 0));
-  EXPECT_FALSE(doubtful(0, 200)) << "the host's features alone";
+  EXPECT_FALSE(doubtful(999, 0, 0.015));
+  EXPECT_TRUE(doubtful(1001, 0, 0.015));
+  EXPECT_FALSE(doubtful(1001, 0, 0.005)) << "within twice the noise that is assumed";
+  EXPECT_FALSE(doubtful(0, 200, 0.015)) << "the host's features alone";
 }
 
 // Of 20 matches so many are wrong, each in its own way: up to 40 px and 0.3 to 1.5 m. Six right ones of 20 are a

@@ -91,7 +91,8 @@ class SupportMotion {
     motion.status = Status::ok;
     const std::size_t corners = matches.size() - matches.host_count;  // of the matcher's own, found again or not
     const bool are_few_found = static_cast<double>(points.size()) < kFewFound * static_cast<double>(corners);
-    motion.doubtful = are_few_found || (motion.depth_noise >= kMostDepthNoise && explained < kSureSupport);
+    motion.doubtful = (are_few_found && motion.depth_noise >= kDoubtfulDepthNoise) ||
+                      (motion.depth_noise >= kMostDepthNoise && explained < kSureSupport);
     if (selection.is_inverted) motion.warnings = Warning::consensus_inverted;
     motion.inliers = problem.inliers(chosen.reference_from_current);
     set_pose(current_from_reference, chosen.information, prior, motion);
@@ -134,7 +135,8 @@ class SupportMotion {
   static constexpr double kToldPreference = 0.1;  // then it is kept with less support than the past's
   static constexpr double kLeastSupport = 0.08;   // share of all weight that the motion must explain
   static constexpr double kFewFound = 0.2;  // of the matcher's corners: where the image has jumped, most are lost …
-  static constexpr double kSureSupport = 0.4;       // less is doubtful where depths do not fit near what is expected
+  static constexpr double kDoubtfulDepthNoise = 2.0;  // … and what is left fits by chance, but for its depths
+  static constexpr double kSureSupport = 0.4;         // less is doubtful where depths do not fit near what is expected
   static constexpr double kMostPriorLoss = 12.6;    // 95 % quantile of χ²₆: what all points at full weight may cost
   static constexpr double kFinerNoise = 0.7;        // of the past's: with less, both hypotheses are compared
   static constexpr double kLeastPixelSigma = 0.1;   // of the measured noise; the most is `constraints.pixel_sigma`
