@@ -53,7 +53,7 @@ struct PooledDepth {
   }
 
  private:
-  /// The last one may be cut off.
+  /// The last one may be cut off; what rounding leaves is none.
   int blocks_of(int side_px) const noexcept {
     return static_cast<int>(std::ceil(static_cast<float>(side_px) / block_px - 1e-3f));
   }

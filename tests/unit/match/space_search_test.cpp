@@ -45,26 +45,28 @@ TEST(PooledDepth, KeepsTheNearestDepthOfEachBlock) {
   EXPECT_EQ(pooled.nearest_around({std::numeric_limits<float>::quiet_NaN(), 3}), 0.0f);
 }
 
-// 480 / 5.3 = 90.6 blocks: the last is cut off, and those above it are known.
-TEST(PooledDepth, KnowsTheLastRowsToo) {
-  const cv::Mat gray(480, 848, CV_8UC1, cv::Scalar(50));
-  cv::Mat depth(480, 848, CV_32FC1, cv::Scalar(3.0));
-  depth.at<float>(475, 400) = 1.0f;
+/// Of a wall at 3 m, of which one pixel is 1 m away.
+PooledDepth pooled_wall(int width, int height, const cv::Point& nearer) {
+  const cv::Mat gray(height, width, CV_8UC1, cv::Scalar(50));
+  cv::Mat depth(height, width, CV_32FC1, cv::Scalar(3.0));
+  depth.at<float>(nearer) = 1.0f;
   PooledDepth pooled;
   pooled.assign(view_of(gray, depth, 0), Pose::Identity());
+  return pooled;
+}
+
+// 480 / 5.3 = 90.6 blocks: the last is cut off, and those above it are known.
+TEST(PooledDepth, KnowsTheLastRowsToo) {
+  const PooledDepth pooled = pooled_wall(848, 480, {400, 475});
   EXPECT_EQ(pooled.height, 91);
   EXPECT_EQ(pooled.nearest_around({400, 474}), 1.0f);
   EXPECT_EQ(pooled.nearest_around({500, 474}), 3.0f);
   EXPECT_EQ(pooled.nearest_around({500, 479}), 0.0f) << "a border block has neighbours that are unknown";
 }
 
-// The camera on its side, 848 long: 480 / 5.3 = 90.6 blocks across, the last is cut off.
+// The camera on its side: the same blocks across.
 TEST(PooledDepth, OfAnUprightImageToo) {
-  const cv::Mat gray(848, 480, CV_8UC1, cv::Scalar(50));
-  cv::Mat depth(848, 480, CV_32FC1, cv::Scalar(3.0));
-  depth.at<float>(400, 475) = 1.0f;
-  PooledDepth pooled;
-  pooled.assign(view_of(gray, depth, 0), Pose::Identity());
+  const PooledDepth pooled = pooled_wall(480, 848, {475, 400});
   EXPECT_EQ(pooled.width, 91);
   EXPECT_EQ(pooled.height, 160);
   EXPECT_EQ(pooled.nearest_around({474, 400}), 1.0f);
